@@ -1,0 +1,27 @@
+// The subcommands of ltcfit. Each adds itself to the parser; its work runs from the parser's callback and returns
+// through CommandStatus.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ltcfit::app {
+
+/// Exit codes: part of the interface (README).
+inline constexpr int kExitOk = 0;
+inline constexpr int kExitFailure = 1;   ///< I/O or run-time failure
+inline constexpr int kExitBadInput = 2;  ///< bad option, or a file that is missing, damaged or of the wrong kind
+inline constexpr int kExitQuality = 3;   ///< a quality gate failed: unusable entries
+
+/// Set by the command that ran.
+struct CommandStatus {
+  int exitCode = kExitOk;
+};
+
+void addFitCommand(CLI::App& app, CommandStatus& status);
+void addExportCommand(CLI::App& app, CommandStatus& status);
+void addScoreCommand(CLI::App& app, CommandStatus& status);
+
+/// CPU seconds of the whole process, all threads.
+double cpuSeconds();
+
+}  // namespace ltcfit::app

@@ -1,0 +1,58 @@
+// ltcfit export: a table in the form a program reads.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "app/commands.h"
+#include "export/atomic_file.h"
+#include "export/c_header.h"
+#include "export/json_table.h"
+#include "export/read_table.h"
+
+namespace ltcfit::app {
+namespace {
+
+struct ExportArguments {
+  std::string input;
+  std::string output;
+  std::string format = "h";
+  std::string prefix;
+  bool quiet = false;
+};
+
+int exportTable(const ExportArguments& a) {
+  checkWritable(a.output);
+  const Table table = readTable(a.input);
+  std::string bytes;
+  try {
+    if (a.format == "json") {
+      bytes = tableToJson(table);
+    } else {
+      bytes = tableToCHeader(table, a.prefix.empty() ? std::filesystem::path(a.output).stem().string() : a.prefix);
+    }
+  } catch (const std::invalid_argument& error) {
+    throw InputError(a.input + ": " + error.what());
+  }
+  writeFileAtomically(a.output, bytes);
+  if (!a.quiet) fmt::print("wrote {} ({} bytes)\n", a.output, bytes.size());
+  return kExitOk;
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& app, CommandStatus& status) {
+  CLI::App* const command = app.add_subcommand("export", "Write a table in another form");
+  auto a = std::make_shared<ExportArguments>();
+  command->add_option("table", a->input, "Table to read: ltcfit's JSON, or a published table (.npy, DDS)")->required();
+  command->add_option("-o,--output", a->output, "File to write")->required();
+  command->add_option("--format", a->format, "h: C/C++ header, texture-ready; json: the table file")
+      ->check(CLI::IsMember({"h", "json"}))
+      ->capture_default_str();
+  command->add_option("--prefix", a->prefix, "Start of the names in the header [the output's file name]");
+  command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors");
+  command->callback([a, &status] { status.exitCode = exportTable(*a); });
+}
+
+}  // namespace ltcfit::app

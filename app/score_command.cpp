@@ -1,0 +1,168 @@
+// ltcfit score: how far a table is from the lobes it stands for.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/progress.h"
+#include "export/atomic_file.h"
+#include "export/read_table.h"
+#include "report/score.h"
+
+namespace ltcfit::app {
+namespace {
+
+struct ScoreArguments {
+  std::string table;
+  std::string against;
+  std::string points = "nodes";
+  std::int64_t count = 512;
+  std::int64_t seed = 1;
+  double minAlpha = 0.0;
+  MetricOptions metrics;
+  int threads = 0;
+  bool interpolation = false;
+  bool quiet = false;
+  bool json = false;
+};
+
+std::string describe(const Table& table) {
+  std::string size;
+  for (const Axis& axis : table.info().axes) size += fmt::format("{}{}", size.empty() ? "" : " x ", axis.size());
+  return fmt::format("{}, stores {}", size, matrixStorageName(table.info().stores));
+}
+
+std::string number(double v) {
+  if (v == 0.0) return "0";
+  return std::abs(v) >= 1e-3 && std::abs(v) < 1e4 ? fmt::format("{:.5f}", v) : fmt::format("{:.3e}", v);
+}
+
+void printSummaries(const Score& score) {
+  fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}\n", "", "mean", "p50", "p90", "p99", "max", "non-finite");
+  for (std::size_t m = 0; m < kMetricCount; ++m) {
+    if (!score.present[m]) continue;
+    const Summary& s = score.summary[m];
+    fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}\n", metricName(static_cast<Metric>(m)), number(s.mean),
+               number(s.p50), number(s.p90), number(s.p99), number(s.max), s.nonFinite);
+  }
+  fmt::print("singular matrices: {} in double, {} in float32\n", score.singular, score.singularFloat32);
+}
+
+void printRatios(const Score& ours, const Score& theirs) {
+  fmt::print("\nfirst / second      {:>11}{:>11}{:>11}{:>11}{:>11}\n", "mean", "p50", "p90", "p99", "max");
+  const auto ratio = [](double a, double b) { return b > 0.0 ? fmt::format("{:.3f}", a / b) : std::string("-"); };
+  for (std::size_t m = 0; m < kMetricCount; ++m) {
+    if (!ours.present[m] || !theirs.present[m]) continue;
+    const Summary& a = ours.summary[m];
+    const Summary& b = theirs.summary[m];
+    fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}\n", metricName(static_cast<Metric>(m)), ratio(a.mean, b.mean),
+               ratio(a.p50, b.p50), ratio(a.p90, b.p90), ratio(a.p99, b.p99), ratio(a.max, b.max));
+  }
+}
+
+nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
+  nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
+  for (std::size_t m = 0; m < kMetricCount; ++m) {
+    if (!score.present[m]) continue;
+    const Summary& s = score.summary[m];
+    metrics[metricName(static_cast<Metric>(m))] = {{"mean", s.mean}, {"p50", s.p50},     {"p90", s.p90},
+                                                   {"p99", s.p99},   {"max", s.max},     {"count", s.count},
+                                                   {"non_finite", s.nonFinite}};
+  }
+  return {{"table", path}, {"singular", score.singular}, {"singular_float32", score.singularFloat32}, {"metrics", metrics}};
+}
+
+int scoreCommand(const ScoreArguments& a) {
+  const Table table = readTable(a.table);
+  std::vector<Table> others;
+  if (!a.against.empty()) {
+    others.push_back(readTable(a.against));
+    if (others[0].isIsotropic() != table.isIsotropic()) {
+      throw InputError(a.against + ": one table is isotropic, the other anisotropic: they have no points in common");
+    }
+  }
+  ScoreOptions options;
+  options.set = pointSetFromName(a.points);
+  options.count = static_cast<std::size_t>(a.count);
+  if (options.count == 0 && options.set != PointSet::kNodes) {
+    throw InputError("--count 0 (all) needs --points nodes; give a number of points");
+  }
+  options.minAlpha = a.minAlpha;
+  options.metrics = a.metrics;
+  options.metrics.seed = static_cast<std::uint64_t>(a.seed);
+  options.interpolation = a.interpolation;
+  options.threads = a.threads;
+  std::vector<const Table*> tables{&table};
+  for (const Table& other : others) tables.push_back(&other);
+
+  std::vector<Score> scores;
+  {
+    Progress progress("score", a.quiet);
+    scores = scoreTables(tables, options, [&](std::size_t done, std::size_t total) { progress.update(done, total); });
+  }
+  if (scores[0].points == 0) throw InputError(fmt::format("--min-alpha {}: no point is left", a.minAlpha));
+
+  if (a.json) {
+    nlohmann::ordered_json out{{"points", a.points},
+                               {"count", scores[0].points},
+                               {"min_alpha", a.minAlpha},
+                               {"seed", a.seed},
+                               {"samples", a.metrics.samples},
+                               {"directions", a.metrics.directions},
+                               {"quads", a.metrics.quads},
+                               {"lights", a.metrics.lights}};
+    out["tables"] = {toJson(a.table, scores[0])};
+    if (scores.size() > 1) out["tables"].push_back(toJson(a.against, scores[1]));
+    fmt::print("{}\n", out.dump(2));
+    return kExitOk;
+  }
+  fmt::print("{} points{}, seed {}; {} samples, {} directions, {} quads, {} lights of each size\n\n", scores[0].points,
+             a.points == "nodes" ? fmt::format(" of {} nodes", table.nodeCount()) : " " + a.points, a.seed,
+             a.metrics.samples, a.metrics.directions, a.metrics.quads, a.metrics.lights);
+  fmt::print("{} ({})\n", a.table, describe(table));
+  printSummaries(scores[0]);
+  if (scores.size() > 1) {
+    fmt::print("\n{} ({})\n", a.against, describe(others[0]));
+    printSummaries(scores[1]);
+    printRatios(scores[0], scores[1]);
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void addScoreCommand(CLI::App& app, CommandStatus& status) {
+  CLI::App* const command = app.add_subcommand("score", "Measure a table's error, alone or next to another one");
+  auto a = std::make_shared<ScoreArguments>();
+  command->add_option("table", a->table, "Table to score: ltcfit's JSON, or a published table (.npy, DDS; the first texture)")
+      ->required();
+  command->add_option("--against", a->against, "Second table, scored at the same points");
+  command->add_option("--points", a->points, "nodes: the table's own; off-grid: random, fetched as a shader does;\nextreme: sharp and grazing")
+      ->check(CLI::IsMember({"nodes", "off-grid", "extreme"}))
+      ->capture_default_str();
+  command->add_option("--count", a->count, "Number of points; 0 = all nodes")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{100000000}))
+      ->capture_default_str();
+  command->add_option("--min-alpha", a->minAlpha, "Leave out points with a smaller GGX alpha; 0..1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--seed", a->seed, "Seed of points, samples and lights")->check(CLI::NonNegativeNumber)->capture_default_str();
+  command->add_option("--samples", a->metrics.samples, "Directions of table and lobe for SW1, TV, L3")
+      ->check(CLI::Range(16, 1 << 22))
+      ->capture_default_str();
+  command->add_option("--directions", a->metrics.directions, "Projections for SW1")->check(CLI::Range(1, 65536))->capture_default_str();
+  command->add_option("--quads", a->metrics.quads, "Random quads for form")->check(CLI::Range(1, 65536))->capture_default_str();
+  command->add_option("--lights", a->metrics.lights, "Random lights of each size")->check(CLI::Range(1, 65536))->capture_default_str();
+  command->add_flag("--interpolation", a->interpolation,
+                    "Also fit each point directly (L3) and report the interpolation ratio; isotropic tables");
+  command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the result")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_flag("-q,--quiet", a->quiet, "No progress line");
+  command->add_flag("--json", a->json, "Print JSON");
+  command->callback([a, &status] { status.exitCode = scoreCommand(*a); });
+}
+
+}  // namespace ltcfit::app

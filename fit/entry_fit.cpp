@@ -1,0 +1,28 @@
+#include "fit/entry_fit.h"
+
+#include <cmath>
+
+#include "fit/l3_objective.h"
+
+namespace ltcfit {
+
+EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const Eigen::Matrix3d& start,
+                           const EntryFitOptions& options) {
+  const bool normalView = lobe.wo().x() == 0.0;
+  const IsotropicParametrization parametrization(options.family, normalView, moments.mean, start);
+  const L3Objective objective(lobe, moments.albedo, options.samples, options.seed);
+  const OptimizerResult best = minimizeNelderMead(
+      [&](std::span<const double> v) { return objective(parametrization.matrix(v)); }, parametrization.start(),
+      parametrization.steps(options.simplexEdge), options.nelderMead);
+
+  EntryFit fit;
+  fit.m = parametrization.matrix(best.parameters);
+  fit.startCost = best.startCost;
+  fit.cost = best.cost;
+  fit.relativeL3 = std::cbrt(best.cost / objective.lobeCube());
+  fit.evaluations = best.evaluations;
+  fit.termination = best.termination;
+  return fit;
+}
+
+}  // namespace ltcfit

@@ -1,0 +1,55 @@
+// What the fitters need of a target lobe. A new BRDF (Beckmann, sheen) is one class derived from Lobe.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+
+namespace ltcfit {
+
+/// One importance sample of a lobe.
+struct LobeSample {
+  Eigen::Vector3d wi;  ///< light direction, unit; may lie below the horizon (weight 0)
+  double weight;       ///< eval(wi) / pdf(wi), finite
+};
+
+/// The cosine-weighted BRDF rho(wo, wi) cos theta_i of one view direction, without Fresnel (F = 1): the target
+/// of every fit. Its integral over wi is the directional albedo, see moments.h.
+class Lobe {
+ public:
+  virtual ~Lobe() = default;
+
+  /// View direction, unit, wo.z in [0, 1].
+  const Eigen::Vector3d& wo() const { return wo_; }
+
+  /// rho(wo, wi) cos theta_i, per steradian, >= 0. Includes the cosine. 0 at and below the horizon.
+  virtual double eval(const Eigen::Vector3d& wi) const = 0;
+
+  /// Density of sample() at wi, per steradian, over the whole sphere.
+  virtual double pdf(const Eigen::Vector3d& wi) const = 0;
+
+  /// A direction for `u` in [0, 1)^2, with its weight eval / pdf.
+  virtual LobeSample sample(const Eigen::Vector2d& u) const = 0;
+
+  /// eval and pdf of many unit directions at once; all spans have one length. The same values as the calls
+  /// above to rounding; this is the inner loop of the L3 fit.
+  virtual void evalBatch(std::span<const double> x, std::span<const double> y, std::span<const double> z,
+                         std::span<double> eval, std::span<double> pdf) const;
+
+  /// Four numbers of order 1 for each wi that vary smoothly where the lobe is smooth and fast where it is sharp: in
+  /// these coordinates it has no feature narrower than about 1, however small alpha. Guides quadrature, whose
+  /// cells are split until they are small in them. NaN where undefined.
+  virtual Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const = 0;
+
+ protected:
+  explicit Lobe(Eigen::Vector3d wo) : wo_(std::move(wo)) {}
+
+ private:
+  Eigen::Vector3d wo_;
+};
+
+/// View direction for spherical angles in radians, theta from the normal, in [0, pi/2]. At theta = pi/2 (to
+/// the last bit of the double) z is exactly 0.
+Eigen::Vector3d viewDirection(double theta, double phi);
+
+}  // namespace ltcfit

@@ -1,0 +1,100 @@
+#include "ltc/axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace ltcfit {
+
+double mapCoordinate(AxisMap map, double v) {
+  switch (map) {
+    case AxisMap::kSqrt:
+      return std::sqrt(v);
+    case AxisMap::kSqrtOneMinusCos:
+      return std::numbers::sqrt2 * std::sin(0.5 * v);  // sqrt(1 - cos v) without its cancellation
+    case AxisMap::kNone:
+    case AxisMap::kLinear:
+      break;
+  }
+  return v;
+}
+
+double unmapCoordinate(AxisMap map, double u) {
+  switch (map) {
+    case AxisMap::kSqrt:
+      return u * u;
+    case AxisMap::kSqrtOneMinusCos:
+      if (u >= 1.0 && u <= 1.0 + 1e-12) return 0.5 * std::numbers::pi;
+      return 2.0 * std::asin(std::min(1.0, u / std::numbers::sqrt2));
+    case AxisMap::kNone:
+    case AxisMap::kLinear:
+      break;
+  }
+  return u;
+}
+
+std::string_view axisMapName(AxisMap map) {
+  switch (map) {
+    case AxisMap::kLinear:
+      return "linear";
+    case AxisMap::kSqrt:
+      return "sqrt";
+    case AxisMap::kSqrtOneMinusCos:
+      return "sqrt-one-minus-cos";
+    case AxisMap::kNone:
+      break;
+  }
+  return "";
+}
+
+AxisMap axisMapFromName(std::string_view name) {
+  for (AxisMap map : {AxisMap::kLinear, AxisMap::kSqrt, AxisMap::kSqrtOneMinusCos}) {
+    if (axisMapName(map) == name) return map;
+  }
+  throw std::invalid_argument("unknown axis map '" + std::string(name) +
+                              "' (linear, sqrt or sqrt-one-minus-cos)");
+}
+
+double Axis::texelFromValue(double value) const {
+  const double last = static_cast<double>(size() - 1);
+  if (map == AxisMap::kNone) {
+    const auto above = std::upper_bound(values.begin(), values.end(), value);
+    if (above == values.begin()) return 0.0;
+    if (above == values.end()) return last;
+    const double lower = *(above - 1);
+    return static_cast<double>(above - values.begin() - 1) + (value - lower) / (*above - lower);
+  }
+  const double u0 = mapCoordinate(map, low);
+  const double u1 = mapCoordinate(map, high);
+  const double t = (mapCoordinate(map, std::clamp(value, low, high)) - u0) / (u1 - u0) * last;
+  return std::clamp(t, 0.0, last);
+}
+
+double Axis::valueFromTexel(double t) const {
+  const double last = static_cast<double>(size() - 1);
+  if (map == AxisMap::kNone) {
+    const std::size_t i = std::min(static_cast<std::size_t>(t), size() - 2);
+    const double f = t - static_cast<double>(i);
+    return values[i] * (1.0 - f) + values[i + 1] * f;
+  }
+  if (t >= last) return high;
+  const double u0 = mapCoordinate(map, low);
+  return unmapCoordinate(map, u0 + t / last * (mapCoordinate(map, high) - u0));
+}
+
+Axis makeAxis(std::string name, std::string unit, AxisMap map, std::size_t n, double low, double high,
+              double floor) {
+  Axis axis{std::move(name), std::move(unit), {}, map, low, high};
+  axis.values.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    axis.values[i] = std::max(floor, axis.valueFromTexel(static_cast<double>(i)));
+    if (i > 0 && !(axis.values[i] > axis.values[i - 1])) {
+      throw std::invalid_argument("axis '" + axis.name + "': a floor of " + std::to_string(floor) +
+                                  " makes nodes coincide: lower it or use fewer nodes");
+    }
+  }
+  return axis;
+}
+
+}  // namespace ltcfit

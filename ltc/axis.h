@@ -1,0 +1,53 @@
+// The axes of a table: where its nodes are, and how a shader finds them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ltcfit {
+
+/// How a shader turns a physical coordinate into the one in which the nodes are evenly spaced.
+enum class AxisMap {
+  kNone,             ///< nodes anywhere: the shader searches
+  kLinear,           ///< u = v
+  kSqrt,             ///< u = sqrt(v): roughness from alpha
+  kSqrtOneMinusCos,  ///< u = sqrt(1 - cos v): the angle axis of the 2017 table
+};
+
+/// u of v, and v of u: an inverse pair for every map. Angles in radians. At u = 1 the angle of
+/// kSqrtOneMinusCos is exactly pi/2.
+double mapCoordinate(AxisMap map, double v);
+double unmapCoordinate(AxisMap map, double u);
+
+/// The name in the table file ("linear", "sqrt", "sqrt-one-minus-cos"; "" for kNone), and back. An unknown name
+/// throws std::invalid_argument.
+std::string_view axisMapName(AxisMap map);
+AxisMap axisMapFromName(std::string_view name);
+
+/// One axis. Node i of n sits at texel i; texel t belongs to the physical coordinate
+/// unmap(map(low) + t / (n - 1) (map(high) - map(low))). A value may differ from its texel's coordinate only at
+/// the ends, where the fit was clamped (alpha floor, grazing angle): the shader's formula still holds.
+struct Axis {
+  std::string name;            ///< theta, phi, alpha, lambda, alpha_x or alpha_y
+  std::string unit;            ///< "rad" or "1"
+  std::vector<double> values;  ///< physical coordinate at which each node was fitted, strictly increasing
+  AxisMap map = AxisMap::kNone;
+  double low = 0.0;   ///< physical coordinate of texel 0 (ignored for kNone)
+  double high = 0.0;  ///< physical coordinate of texel n - 1
+
+  std::size_t size() const { return values.size(); }
+
+  /// Continuous texel coordinate of a physical one, clamped to [0, n - 1].
+  double texelFromValue(double value) const;
+  /// Its inverse, for t in [0, n - 1].
+  double valueFromTexel(double t) const;
+};
+
+/// An axis of n >= 2 nodes, evenly spaced in `map` from low to high, values clamped from below to `floor`.
+/// Throws std::invalid_argument where the floor would make two nodes coincide.
+Axis makeAxis(std::string name, std::string unit, AxisMap map, std::size_t n, double low, double high,
+              double floor = 0.0);
+
+}  // namespace ltcfit

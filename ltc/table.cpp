@@ -1,0 +1,233 @@
+#include "ltc/table.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace ltcfit {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) { throw std::invalid_argument(what); }
+
+struct AxisRange {
+  std::string_view name;
+  double low;
+  double high;
+};
+constexpr double kHalfPi = 0.5 * std::numbers::pi;
+constexpr std::array<AxisRange, 2> kIsotropicAxes{{{"theta", 0.0, kHalfPi}, {"alpha", 0.0, 1.0}}};
+constexpr std::array<AxisRange, 4> kAnisotropicAxes{
+    {{"alpha", 0.0, 1.0}, {"lambda", 0.0, 1.0}, {"theta", 0.0, kHalfPi}, {"phi", 0.0, kHalfPi}}};
+// Slack for angles that were written with few digits.
+constexpr double kRangeSlack = 1e-6;
+// A node inside the axis may differ from its texel's coordinate by this much of a texel: rounding in the file.
+constexpr double kTexelSlack = 1e-3;
+// Nodes per axis: far above any texture, far below what overflows a count.
+constexpr std::size_t kMaxNodes = 65536;
+// Nodes of a table: 64^4, the largest that was ever proposed (KT et al. 2022, section 8), fits with room.
+constexpr std::size_t kMaxTableNodes = std::size_t{1} << 28;
+
+bool hasAxes(const std::vector<Axis>& axes, std::span<const AxisRange> ranges) {
+  return std::equal(axes.begin(), axes.end(), ranges.begin(), ranges.end(),
+                    [](const Axis& axis, const AxisRange& range) { return axis.name == range.name; });
+}
+
+void validateAxis(const Axis& axis, const AxisRange& range) {
+  const std::string where = "axis '" + axis.name + "'";
+  const auto& v = axis.values;
+  if (v.size() < 2 || v.size() > kMaxNodes) {
+    fail(where + ": " + std::to_string(v.size()) + " values, need 2 to " + std::to_string(kMaxNodes));
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::string at = where + " values[" + std::to_string(i) + "]";
+    if (!std::isfinite(v[i])) fail(at + " is not finite");
+    if (v[i] < range.low || v[i] > range.high + kRangeSlack) {
+      fail(at + " = " + std::to_string(v[i]) + " is outside of [" + std::to_string(range.low) + ", " +
+           std::to_string(range.high) + "]");
+    }
+    if (i > 0 && !(v[i] > v[i - 1])) fail(at + " does not increase");
+  }
+  if (axis.map == AxisMap::kNone) return;
+  if (!std::isfinite(axis.low) || !std::isfinite(axis.high) || !(axis.low < axis.high) ||
+      axis.low < range.low || axis.high > range.high + kRangeSlack) {
+    fail(where + " range: need two increasing numbers inside [" + std::to_string(range.low) + ", " +
+         std::to_string(range.high) + "]");
+  }
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+    if (std::abs(axis.texelFromValue(v[i]) - static_cast<double>(i)) > kTexelSlack) {
+      fail(where + " values[" + std::to_string(i) + "] is not where its map '" +
+           std::string(axisMapName(axis.map)) + "' puts it");
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view matrixStorageName(MatrixStorage storage) {
+  return storage == MatrixStorage::kM ? "M" : "Minv";
+}
+
+std::string_view matrixNormalizationName(MatrixNormalization normalization) {
+  switch (normalization) {
+    case MatrixNormalization::kThirdColumnUnit:
+      return "third-column-unit";
+    case MatrixNormalization::kMiddleElement:
+      return "middle-element";
+    case MatrixNormalization::kNone:
+      break;
+  }
+  return "none";
+}
+
+MatrixStorage matrixStorageFromName(std::string_view name) {
+  if (name == "M") return MatrixStorage::kM;
+  if (name == "Minv") return MatrixStorage::kMinv;
+  fail("matrix.stores '" + std::string(name) + "' (M or Minv)");
+}
+
+MatrixNormalization matrixNormalizationFromName(std::string_view name) {
+  for (auto n : {MatrixNormalization::kNone, MatrixNormalization::kThirdColumnUnit,
+                 MatrixNormalization::kMiddleElement}) {
+    if (name == matrixNormalizationName(n)) return n;
+  }
+  fail("matrix.normalization '" + std::string(name) + "' (none, third-column-unit or middle-element)");
+}
+
+Eigen::Matrix3d normalized(const Eigen::Matrix3d& m, MatrixNormalization normalization) {
+  switch (normalization) {
+    case MatrixNormalization::kThirdColumnUnit:
+      return m / m.col(2).norm();
+    case MatrixNormalization::kMiddleElement:
+      return m / m(1, 1);
+    case MatrixNormalization::kNone:
+      break;
+  }
+  return m;
+}
+
+Table::Table(TableInfo info, std::vector<float> data) : info_(std::move(info)), data_(std::move(data)) {
+  validateAxes();
+  bindChannels();
+  if (!std::isfinite(info_.alphaFloor) || info_.alphaFloor < 0.0 || info_.alphaFloor > 1.0) {
+    fail("alpha_floor is not in [0, 1]");
+  }
+  nodeCount_ = 1;
+  for (const Axis& axis : info_.axes) {
+    nodeCount_ *= axis.size();
+    if (nodeCount_ > kMaxTableNodes) fail("axes: more than " + std::to_string(kMaxTableNodes) + " nodes");
+  }
+  if (data_.size() != nodeCount_ * channelCount()) {
+    fail("data: " + std::to_string(data_.size()) + " numbers, but the axes and channels need " +
+         std::to_string(nodeCount_) + " x " + std::to_string(channelCount()));
+  }
+  const auto bad = std::find_if(data_.begin(), data_.end(), [](float x) { return !std::isfinite(x); });
+  if (bad != data_.end()) fail("data[" + std::to_string(bad - data_.begin()) + "] is not finite");
+}
+
+void Table::validateAxes() const {
+  std::span<const AxisRange> ranges;
+  if (hasAxes(info_.axes, kIsotropicAxes)) ranges = kIsotropicAxes;
+  if (hasAxes(info_.axes, kAnisotropicAxes)) ranges = kAnisotropicAxes;
+  if (ranges.empty()) fail("axes: need theta, alpha or alpha, lambda, theta, phi, in this order");
+  for (std::size_t i = 0; i < ranges.size(); ++i) validateAxis(info_.axes[i], ranges[i]);
+}
+
+void Table::bindChannels() {
+  matrixChannel_.fill(-1);
+  for (std::size_t i = 0; i < info_.channels.size(); ++i) {
+    const std::string& name = info_.channels[i];
+    int* slot = nullptr;
+    if (name == "norm") slot = &normChannel_;
+    if (name == "fresnel") slot = &fresnelChannel_;
+    if (name.size() == 3 && name[0] == 'm' && name[1] >= '0' && name[1] <= '2' && name[2] >= '0' && name[2] <= '2') {
+      slot = &matrixChannel_[static_cast<std::size_t>((name[1] - '0') * 3 + (name[2] - '0'))];
+    }
+    if (slot == nullptr) fail("channels[" + std::to_string(i) + "]: unknown name '" + name + "'");
+    if (*slot >= 0) fail("channels[" + std::to_string(i) + "]: '" + name + "' occurs twice");
+    *slot = static_cast<int>(i);
+  }
+  for (std::size_t d : {0u, 4u, 8u}) {
+    if (matrixChannel_[d] < 0) fail("channels: the matrix needs m00, m11 and m22");
+  }
+}
+
+std::size_t Table::index(std::span<const std::size_t> node) const {
+  std::size_t flat = 0;
+  for (std::size_t a = 0; a < info_.axes.size(); ++a) flat = flat * info_.axes[a].size() + node[a];
+  return flat * channelCount();
+}
+
+std::vector<std::size_t> Table::node(std::size_t flat) const {
+  std::vector<std::size_t> out(info_.axes.size());
+  for (std::size_t a = out.size(); a-- > 0;) {
+    out[a] = flat % info_.axes[a].size();
+    flat /= info_.axes[a].size();
+  }
+  return out;
+}
+
+LobeParameters Table::parameters(std::span<const std::size_t> node) const {
+  const auto value = [&](std::size_t a) { return info_.axes[a].values[node[a]]; };
+  const double floor = info_.alphaFloor;
+  if (isIsotropic()) {
+    const double alpha = std::max(value(1), floor);
+    return {alpha, alpha, std::min(value(0), kHalfPi), 0.0};
+  }
+  return {std::max(value(0), floor), std::max(value(0) * value(1), floor), std::min(value(2), kHalfPi),
+          std::min(value(3), kHalfPi)};
+}
+
+TableEntry Table::unpack(const double* channels) const {
+  Eigen::Matrix3d stored;
+  for (int k = 0; k < 9; ++k) {
+    const int c = matrixChannel_[static_cast<std::size_t>(k)];
+    stored(k / 3, k % 3) = c < 0 ? 0.0 : channels[c];
+  }
+  TableEntry entry;
+  const Eigen::Matrix3d inverse = stored.inverse();
+  entry.m = info_.stores == MatrixStorage::kM ? stored : inverse;
+  entry.mInv = info_.stores == MatrixStorage::kM ? inverse : stored;
+  entry.invertible = inverse.allFinite() && std::abs(entry.m.determinant()) > 0.0;
+  if (normChannel_ >= 0) entry.norm = channels[normChannel_];
+  if (fresnelChannel_ >= 0) entry.fresnel = channels[fresnelChannel_];
+  return entry;
+}
+
+TableEntry Table::entry(std::span<const std::size_t> node) const {
+  const std::size_t offset = index(node);
+  std::vector<double> channels(channelCount());
+  for (std::size_t c = 0; c < channels.size(); ++c) channels[c] = static_cast<double>(data_[offset + c]);
+  return unpack(channels.data());
+}
+
+TableEntry Table::fetch(const LobeParameters& p) const {
+  const std::array<double, 4> isotropic{p.theta, p.alphaX, 0.0, 0.0};
+  const std::array<double, 4> anisotropic{p.alphaX, p.alphaY / p.alphaX, p.theta, p.phi};
+  const std::array<double, 4>& value = isIsotropic() ? isotropic : anisotropic;
+  const std::size_t dims = info_.axes.size();
+  std::array<std::size_t, 4> base{};
+  std::array<double, 4> fraction{};
+  for (std::size_t a = 0; a < dims; ++a) {
+    const double t = info_.axes[a].texelFromValue(value[a]);
+    base[a] = std::min(static_cast<std::size_t>(t), info_.axes[a].size() - 2);
+    fraction[a] = t - static_cast<double>(base[a]);
+  }
+  std::vector<double> channels(channelCount(), 0.0);
+  for (std::size_t corner = 0; corner < (std::size_t{1} << dims); ++corner) {
+    std::array<std::size_t, 4> node = base;
+    double weight = 1.0;
+    for (std::size_t a = 0; a < dims; ++a) {
+      const bool upper = ((corner >> a) & 1u) != 0;
+      node[a] += upper ? 1 : 0;
+      weight *= upper ? fraction[a] : 1.0 - fraction[a];
+    }
+    if (weight == 0.0) continue;
+    const std::size_t offset = index(std::span(node).first(dims));
+    for (std::size_t c = 0; c < channels.size(); ++c) channels[c] += weight * static_cast<double>(data_[offset + c]);
+  }
+  return unpack(channels.data());
+}
+
+}  // namespace ltcfit

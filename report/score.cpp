@@ -1,0 +1,127 @@
+#include "report/score.h"
+
+#include <omp.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "fit/entry_fit.h"
+#include "ggx/ggx_lobe.h"
+
+namespace ltcfit {
+namespace {
+
+struct PointResult {
+  EntryMetrics metrics;
+  bool singular = false;
+  bool singularFloat32 = false;
+};
+
+bool sameLayout(const Table& a, const Table& b) {
+  for (std::size_t i = 0; i < a.info().axes.size(); ++i) {
+    const Axis& x = a.info().axes[i];
+    const Axis& y = b.info().axes[i];
+    if (x.size() != y.size() || x.map != y.map || x.low != y.low || x.high != y.high) return false;
+  }
+  return true;
+}
+
+bool sameParameters(const LobeParameters& a, const LobeParameters& b) {
+  return a.alphaX == b.alphaX && a.alphaY == b.alphaY && a.theta == b.theta && a.phi == b.phi;
+}
+
+// The target of one set of parameters. Not copyable: the metrics keep a reference to the lobe.
+struct Target {
+  Target(const LobeParameters& p, const MetricOptions& options)
+      : parameters(p), lobe(viewDirection(p.theta, p.phi), {p.alphaX, p.alphaY}), metrics(lobe, options) {}
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  LobeParameters parameters;
+  GgxLobe lobe;
+  MetricTarget metrics;
+};
+
+PointResult judge(const TableEntry& entry, const Table& table, const Target& target, const ScoreOptions& options) {
+  PointResult out;
+  out.singular = !entry.invertible;
+  out.singularFloat32 =
+      out.singular || !isInvertibleInFloat(table.info().stores == MatrixStorage::kM ? entry.m : entry.mInv);
+  if (out.singular) {
+    for (std::size_t m = 0; m < kMetricCount; ++m) out.metrics.set(static_cast<Metric>(m), std::nan(""));
+    return out;
+  }
+  const Ltc ltc(entry.m);
+  out.metrics = target.metrics.evaluate(ltc);
+  addEntryErrors(entry, table.info().stores, target.metrics.moments(), out.metrics);
+  if (options.interpolation && table.isIsotropic()) {
+    EntryFitOptions fit;
+    fit.seed = mixSeed(options.metrics.seed, 21);
+    const EntryFit direct = fitIsotropicEntry(target.lobe, target.metrics.moments(), entry.m, fit);
+    out.metrics.set(Metric::kInterpolationRatio,
+                    out.metrics.get(Metric::kSw1) / target.metrics.sw1(Ltc(direct.m)));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const ScoreOptions& options,
+                               const ScoreProgress& progress) {
+  const Table& first = *tables.at(0);
+  for (const Table* table : tables) {
+    if (table->isIsotropic() != first.isIsotropic()) {
+      std::fprintf(stderr, "scoreTables: an isotropic and an anisotropic table have no points in common\n");
+      std::abort();
+    }
+  }
+  const std::vector<Point> points =
+      makePoints(first, options.set, options.count, options.minAlpha, options.metrics.seed);
+  std::vector<std::vector<PointResult>> results(tables.size(), std::vector<PointResult>(points.size()));
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  std::size_t done = 0;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Target target(points[i].parameters, options.metrics);
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+      const Table& table = *tables[t];
+      if (points[i].node && sameLayout(first, table)) {
+        const std::vector<std::size_t> node = table.node(*points[i].node);
+        const LobeParameters own = table.parameters(node);
+        results[t][i] = sameParameters(own, points[i].parameters)
+                            ? judge(table.entry(node), table, target, options)
+                            : judge(table.entry(node), table, Target(own, options.metrics), options);
+      } else {
+        results[t][i] = judge(table.fetch(points[i].parameters), table, target, options);
+      }
+    }
+    if (progress) {
+#pragma omp critical(ltcfit_score_progress)
+      progress(++done, points.size());
+    }
+  }
+
+  std::vector<Score> scores(tables.size());
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    Score& score = scores[t];
+    score.points = points.size();
+    for (const PointResult& r : results[t]) {
+      score.singular += r.singular ? 1 : 0;
+      score.singularFloat32 += r.singularFloat32 ? 1 : 0;
+    }
+    for (std::size_t m = 0; m < kMetricCount; ++m) {
+      std::vector<double> values;
+      for (const PointResult& r : results[t]) {
+        if (r.metrics.present[m] && !r.singular) values.push_back(r.metrics.value[m]);
+      }
+      // a singular entry is a fault of every metric that the others have
+      score.present[m] = !values.empty();
+      if (score.present[m]) values.resize(values.size() + score.singular, std::nan(""));
+      score.summary[m] = summarize(std::move(values));
+    }
+  }
+  return scores;
+}
+
+}  // namespace ltcfit
