@@ -1,5 +1,5 @@
-// The subcommands of ltcfit. Each adds itself to the parser; its work runs from the parser's callback and returns
-// through CommandStatus.
+// The subcommands of ltcfit. Each adds itself to the parser; its work runs from the parser's callback and
+// returns through CommandStatus.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,9 +8,10 @@ namespace ltcfit::app {
 
 /// Exit codes: part of the interface (README).
 inline constexpr int kExitOk = 0;
-inline constexpr int kExitFailure = 1;   ///< I/O or run-time failure
-inline constexpr int kExitBadInput = 2;  ///< bad option, or a file that is missing, damaged or of the wrong kind
-inline constexpr int kExitQuality = 3;   ///< a quality gate failed: unusable entries
+inline constexpr int kExitFailure = 1;  ///< I/O or run-time failure
+inline constexpr int kExitBadInput =
+    2;  ///< bad option, or a file that is missing, damaged or of the wrong kind
+inline constexpr int kExitQuality = 3;  ///< a quality gate failed: unusable entries
 
 /// Set by the command that ran.
 struct CommandStatus {

@@ -30,7 +30,8 @@ int exportTable(const ExportArguments& a) {
     if (a.format == "json") {
       bytes = tableToJson(table);
     } else {
-      bytes = tableToCHeader(table, a.prefix.empty() ? std::filesystem::path(a.output).stem().string() : a.prefix);
+      bytes = tableToCHeader(table,
+                             a.prefix.empty() ? std::filesystem::path(a.output).stem().string() : a.prefix);
     }
   } catch (const std::invalid_argument& error) {
     throw InputError(a.input + ": " + error.what());
@@ -45,12 +46,15 @@ int exportTable(const ExportArguments& a) {
 void addExportCommand(CLI::App& app, CommandStatus& status) {
   CLI::App* const command = app.add_subcommand("export", "Write a table in another form");
   auto a = std::make_shared<ExportArguments>();
-  command->add_option("table", a->input, "Table to read: ltcfit's JSON, or a published table (.npy, DDS)")->required();
-  command->add_option("-o,--output", a->output, "File to write")->required();
+  command->add_option("table", a->input, "Table to read: ltcfit's JSON, or a published table (.npy, DDS)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", a->output, "File to write")->required()->type_name("FILE");
   command->add_option("--format", a->format, "h: C/C++ header, texture-ready; json: the table file")
       ->check(CLI::IsMember({"h", "json"}))
       ->capture_default_str();
-  command->add_option("--prefix", a->prefix, "Start of the names in the header [the output's file name]");
+  command->add_option("--prefix", a->prefix, "Start of the names in the header [the output's file name]")
+      ->type_name("NAME");
   command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors");
   command->callback([a, &status] { status.exitCode = exportTable(*a); });
 }

@@ -27,6 +27,7 @@ struct FitArguments {
   std::string family = "4";
   int samples = EntryFitOptions{}.samples;
   double alphaFloor = IsotropicFitOptions{}.alphaFloor;
+  double thetaMax = IsotropicFitOptions{}.thetaMax;
   int threads = 0;
   std::int64_t seed = 1;
   int scorePoints = 64;
@@ -41,7 +42,8 @@ std::array<std::size_t, 2> parseSize(const std::string& text) {
   unsigned a = 0;
   unsigned b = 0;
   const bool plain = text.find_first_not_of("0123456789x") == std::string::npos && text.size() < 12;
-  if (!plain || std::sscanf(text.c_str(), "%ux%u%n", &a, &b, &used) != 2 || used != static_cast<int>(text.size())) {
+  if (!plain || std::sscanf(text.c_str(), "%ux%u%n", &a, &b, &used) != 2 ||
+      used != static_cast<int>(text.size())) {
     throw std::invalid_argument("--size '" + text + "': need THETAxALPHA, for example 64x64");
   }
   out = {a, b};
@@ -55,6 +57,7 @@ IsotropicFitOptions toOptions(const FitArguments& a) {
   o.alphaNodes = size[1];
   o.axes = a.axes == "2016" ? IsotropicAxes::k2016 : IsotropicAxes::k2017;
   o.alphaFloor = a.alphaFloor;
+  o.thetaMax = a.thetaMax;
   o.threads = a.threads;
   o.entry.family = a.family == "3" ? IsotropicFamily::kMeanFrame3 : IsotropicFamily::kPlane4;
   o.entry.samples = a.samples;
@@ -69,28 +72,34 @@ Provenance makeProvenance(const FitArguments& a) {
   Provenance p;
   p.tool = "ltcfit";
   p.toolVersion = LTCFIT_VERSION;
-  p.command = fmt::format("ltcfit fit iso --size {} --axes {} --fitter {} --family {} --samples {} --alpha-floor {} --seed {}",
-                          a.size, a.axes, a.fitter, a.family, a.samples, a.alphaFloor, a.seed);
+  p.command =
+      fmt::format("ltcfit fit iso --size {} --axes {} --fitter {} --family {} --samples {} --alpha-floor {}",
+                  a.size, a.axes, a.fitter, a.family, a.samples, a.alphaFloor);
+  if (a.thetaMax != IsotropicFitOptions{}.thetaMax) p.command += fmt::format(" --theta-max {}", a.thetaMax);
+  p.command += fmt::format(" --seed {}", a.seed);
   p.seed = a.seed;
   p.options = {{"size", a.size},
                {"axes", a.axes},
                {"fitter", a.fitter},
                {"family", a.family},
                {"samples", std::int64_t{a.samples}},
-               {"alpha_floor", a.alphaFloor}};
+               {"alpha_floor", a.alphaFloor},
+               {"theta_max", a.thetaMax}};
   return p;
 }
 
 std::string reportCsv(const IsotropicFitResult& result) {
   std::string out =
-      "theta,alpha,warm_start,termination,evaluations,total_evaluations,start_cost,cost,relative_l3,refitted,improved,usable\n";
+      "theta,alpha,warm_start,termination,evaluations,total_evaluations,start_cost,cost,relative_l3,refitted,"
+      "improved,usable\n";
   const std::size_t alphas = result.info.axes[1].size();
   for (std::size_t i = 0; i < result.reports.size(); ++i) {
     const EntryReport& r = result.reports[i];
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{:d},{:d},{:d}\n",
                    result.info.axes[0].values[i / alphas], result.info.axes[1].values[i % alphas],
                    warmStartName(r.warmStart), terminationName(r.fit.termination), r.fit.evaluations,
-                   r.totalEvaluations, r.fit.startCost, r.fit.cost, r.fit.relativeL3, r.refitted, r.improved, r.usable);
+                   r.totalEvaluations, r.fit.startCost, r.fit.cost, r.fit.relativeL3, r.refitted, r.improved,
+                   r.usable);
   }
   return out;
 }
@@ -106,17 +115,20 @@ Summary relativeErrors(const IsotropicFitResult& result) {
   return summarize(std::move(errors));
 }
 
-constexpr std::array<Metric, 7> kSummaryMetrics{Metric::kSw1,    Metric::kForm,   Metric::kLightS, Metric::kLightM,
-                                                Metric::kLightL, Metric::kTv, Metric::kBelow};
+constexpr std::array<Metric, 7> kSummaryMetrics{Metric::kSw1,    Metric::kForm,   Metric::kLightS,
+                                                Metric::kLightM, Metric::kLightL, Metric::kTv,
+                                                Metric::kBelow};
 
-void printText(const FitArguments& a, const IsotropicFitResult& result, const Times& times, const Score* score) {
+void printText(const FitArguments& a, const IsotropicFitResult& result, const Times& times,
+               const Score* score) {
   const Summary relative = relativeErrors(result);
-  fmt::print("{} entries, {} evaluations: {:.1f} CPU s, {:.1f} s wall\n", result.reports.size(), result.evaluations,
-             times.cpu, times.wall);
+  fmt::print("{} entries, {} evaluations: {:.1f} CPU s, {:.1f} s wall\n", result.reports.size(),
+             result.evaluations, times.cpu, times.wall);
   fmt::print("tried again {}, better for it {}; not converged {}, unusable {}\n", result.refitted,
              result.improvedByRefit, result.notConverged, result.unusable);
-  fmt::print("relative L3 error of the fit: mean {:.4f}, p99 {:.4f}, max {:.4f}; norm and Fresnel within {:.0e}\n",
-             relative.mean, relative.p99, relative.max, result.largestMomentError);
+  fmt::print(
+      "relative L3 error of the fit: mean {:.4f}, p99 {:.4f}, max {:.4f}; norm and Fresnel within {:.0e}\n",
+      relative.mean, relative.p99, relative.max, result.largestMomentError);
   if (score != nullptr) {
     fmt::print("off-grid at {} points, on samples the fit has not seen:\n", score->points);
     for (Metric m : kSummaryMetrics) {
@@ -127,19 +139,21 @@ void printText(const FitArguments& a, const IsotropicFitResult& result, const Ti
   if (result.unusable == 0) fmt::print("wrote {}\n", a.output);
 }
 
-void printJson(const FitArguments& a, const IsotropicFitResult& result, const Times& times, const Score* score) {
+void printJson(const FitArguments& a, const IsotropicFitResult& result, const Times& times,
+               const Score* score) {
   const Summary relative = relativeErrors(result);
-  nlohmann::ordered_json out{{"output", a.output},
-                             {"entries", result.reports.size()},
-                             {"evaluations", result.evaluations},
-                             {"cpu_seconds", times.cpu},
-                             {"wall_seconds", times.wall},
-                             {"refitted", result.refitted},
-                             {"improved_by_refit", result.improvedByRefit},
-                             {"not_converged", result.notConverged},
-                             {"unusable", result.unusable},
-                             {"moment_error", result.largestMomentError},
-                             {"relative_l3", {{"mean", relative.mean}, {"p99", relative.p99}, {"max", relative.max}}}};
+  nlohmann::ordered_json out{
+      {"output", a.output},
+      {"entries", result.reports.size()},
+      {"evaluations", result.evaluations},
+      {"cpu_seconds", times.cpu},
+      {"wall_seconds", times.wall},
+      {"refitted", result.refitted},
+      {"improved_by_refit", result.improvedByRefit},
+      {"not_converged", result.notConverged},
+      {"unusable", result.unusable},
+      {"moment_error", result.largestMomentError},
+      {"relative_l3", {{"mean", relative.mean}, {"p99", relative.p99}, {"max", relative.max}}}};
   if (score != nullptr) {
     for (Metric m : kSummaryMetrics) {
       const Summary& s = score->summary[static_cast<std::size_t>(m)];
@@ -159,7 +173,8 @@ int fitIso(const FitArguments& a) {
   IsotropicFitResult result;
   {
     Progress progress("fit", a.quiet);
-    result = fitIsotropicTable(options, [&](std::size_t done, std::size_t total) { progress.update(done, total); });
+    result = fitIsotropicTable(options,
+                               [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
   const Times times{cpuSeconds() - cpuStart,
                     std::chrono::duration<double>(std::chrono::steady_clock::now() - wallStart).count()};
@@ -185,7 +200,8 @@ int fitIso(const FitArguments& a) {
     printText(a, result, times, score.get());
   }
   if (result.unusable > 0) {
-    fmt::print(stderr, "ltcfit: {} entries are unusable (singular, or worse than no light): nothing was written{}\n",
+    fmt::print(stderr,
+               "ltcfit: {} entries are unusable (singular, or worse than no light): nothing was written{}\n",
                result.unusable, a.reportPath.empty() ? "; --report FILE.csv lists them" : "");
     return kExitQuality;
   }
@@ -205,10 +221,13 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
   fit->require_subcommand(1);
   CLI::App* const iso = fit->add_subcommand("iso", "Fit the isotropic table (theta, alpha)");
   auto a = std::make_shared<FitArguments>();
-  iso->add_option("-o,--output", a->output, "Table file to write (JSON)")->required();
-  iso->add_option("--size", a->size, "Nodes along theta and alpha, each 2..1024")->capture_default_str();
-  iso->add_option("--axes", a->axes,
-                  "Axes: 2017 = sqrt(1 - cos theta), what engines read; 2016 = theta, linear. Both with sqrt(alpha)")
+  iso->add_option("-o,--output", a->output, "Table file to write (JSON)")->required()->type_name("FILE.json");
+  iso->add_option("--size", a->size, "Nodes along theta and alpha, each 2..1024")
+      ->type_name("THETAxALPHA")
+      ->capture_default_str();
+  iso->add_option(
+         "--axes", a->axes,
+         "Axes: 2017 = sqrt(1 - cos theta), what engines read; 2016 = theta, linear. Both with sqrt(alpha)")
       ->check(CLI::IsMember({"2016", "2017"}))
       ->capture_default_str();
   iso->add_option("--fitter", a->fitter, "l3: Nelder-Mead on the L3 error (Heitz et al. 2016)")
@@ -219,15 +238,25 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
                   "3 = in the frame of the mean direction (its authors' code, the 2017 table)")
       ->check(CLI::IsMember({"3", "4"}))
       ->capture_default_str();
-  iso->add_option("--samples", a->samples, "Directions of the lobe, and of the LTC, for the error; 16..4194304")
+  iso->add_option("--samples", a->samples,
+                  "Directions of the lobe, and as many of the LTC, for the error; 16..4194304")
       ->capture_default_str();
-  iso->add_option("--alpha-floor", a->alphaFloor, "GGX alpha of the nodes at sqrt(alpha) = 0; 1e-5 to below the second node's")
+  iso->add_option("--alpha-floor", a->alphaFloor,
+                  "GGX alpha of the nodes at sqrt(alpha) = 0; 1e-5 to below the second node's")
       ->capture_default_str();
-  iso->add_option("--seed", a->seed, "Seed of the sample points")->check(CLI::NonNegativeNumber)->capture_default_str();
+  iso->add_option("--theta-max", a->thetaMax,
+                  "View angle of the last row, radians; up to pi/2, which needs no clamp (2017 table: 1.57)")
+      ->type_name("RAD")
+      ->default_str("pi/2");
+  iso->add_option("--seed", a->seed, "Seed of the sample points")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   iso->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the result")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  iso->add_option("--report", a->reportPath, "Also write a CSV with one line for each entry: start, cost, evaluations, why it stopped");
+  iso->add_option("--report", a->reportPath,
+                  "Also write a CSV with one line for each entry: start, cost, evaluations, why it stopped")
+      ->type_name("FILE.csv");
   iso->add_option("--score-points", a->scorePoints, "Points of the error figures in the summary; 0 = none")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();

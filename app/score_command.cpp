@@ -30,7 +30,8 @@ struct ScoreArguments {
 
 std::string describe(const Table& table) {
   std::string size;
-  for (const Axis& axis : table.info().axes) size += fmt::format("{}{}", size.empty() ? "" : " x ", axis.size());
+  for (const Axis& axis : table.info().axes)
+    size += fmt::format("{}{}", size.empty() ? "" : " x ", axis.size());
   return fmt::format("{}, stores {}", size, matrixStorageName(table.info().stores));
 }
 
@@ -40,25 +41,29 @@ std::string number(double v) {
 }
 
 void printSummaries(const Score& score) {
-  fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}\n", "", "mean", "p50", "p90", "p99", "max", "non-finite");
+  fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}\n", "", "mean", "p50", "p90", "p99", "max",
+             "non-finite");
   for (std::size_t m = 0; m < kMetricCount; ++m) {
     if (!score.present[m]) continue;
     const Summary& s = score.summary[m];
-    fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}\n", metricName(static_cast<Metric>(m)), number(s.mean),
-               number(s.p50), number(s.p90), number(s.p99), number(s.max), s.nonFinite);
+    fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}\n", metricName(static_cast<Metric>(m)),
+               number(s.mean), number(s.p50), number(s.p90), number(s.p99), number(s.max), s.nonFinite);
   }
   fmt::print("singular matrices: {} in double, {} in float32\n", score.singular, score.singularFloat32);
 }
 
 void printRatios(const Score& ours, const Score& theirs) {
   fmt::print("\nfirst / second      {:>11}{:>11}{:>11}{:>11}{:>11}\n", "mean", "p50", "p90", "p99", "max");
-  const auto ratio = [](double a, double b) { return b > 0.0 ? fmt::format("{:.3f}", a / b) : std::string("-"); };
+  const auto ratio = [](double a, double b) {
+    return b > 0.0 ? fmt::format("{:.3f}", a / b) : std::string("-");
+  };
   for (std::size_t m = 0; m < kMetricCount; ++m) {
     if (!ours.present[m] || !theirs.present[m]) continue;
     const Summary& a = ours.summary[m];
     const Summary& b = theirs.summary[m];
-    fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}\n", metricName(static_cast<Metric>(m)), ratio(a.mean, b.mean),
-               ratio(a.p50, b.p50), ratio(a.p90, b.p90), ratio(a.p99, b.p99), ratio(a.max, b.max));
+    fmt::print("{:<20}{:>11}{:>11}{:>11}{:>11}{:>11}\n", metricName(static_cast<Metric>(m)),
+               ratio(a.mean, b.mean), ratio(a.p50, b.p50), ratio(a.p90, b.p90), ratio(a.p99, b.p99),
+               ratio(a.max, b.max));
   }
 }
 
@@ -67,11 +72,18 @@ nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
   for (std::size_t m = 0; m < kMetricCount; ++m) {
     if (!score.present[m]) continue;
     const Summary& s = score.summary[m];
-    metrics[metricName(static_cast<Metric>(m))] = {{"mean", s.mean}, {"p50", s.p50},     {"p90", s.p90},
-                                                   {"p99", s.p99},   {"max", s.max},     {"count", s.count},
+    metrics[metricName(static_cast<Metric>(m))] = {{"mean", s.mean},
+                                                   {"p50", s.p50},
+                                                   {"p90", s.p90},
+                                                   {"p99", s.p99},
+                                                   {"max", s.max},
+                                                   {"count", s.count},
                                                    {"non_finite", s.nonFinite}};
   }
-  return {{"table", path}, {"singular", score.singular}, {"singular_float32", score.singularFloat32}, {"metrics", metrics}};
+  return {{"table", path},
+          {"singular", score.singular},
+          {"singular_float32", score.singularFloat32},
+          {"metrics", metrics}};
 }
 
 int scoreCommand(const ScoreArguments& a) {
@@ -80,7 +92,8 @@ int scoreCommand(const ScoreArguments& a) {
   if (!a.against.empty()) {
     others.push_back(readTable(a.against));
     if (others[0].isIsotropic() != table.isIsotropic()) {
-      throw InputError(a.against + ": one table is isotropic, the other anisotropic: they have no points in common");
+      throw InputError(a.against +
+                       ": one table is isotropic, the other anisotropic: they have no points in common");
     }
   }
   ScoreOptions options;
@@ -100,25 +113,23 @@ int scoreCommand(const ScoreArguments& a) {
   std::vector<Score> scores;
   {
     Progress progress("score", a.quiet);
-    scores = scoreTables(tables, options, [&](std::size_t done, std::size_t total) { progress.update(done, total); });
+    scores = scoreTables(tables, options,
+                         [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
   if (scores[0].points == 0) throw InputError(fmt::format("--min-alpha {}: no point is left", a.minAlpha));
 
   if (a.json) {
-    nlohmann::ordered_json out{{"points", a.points},
-                               {"count", scores[0].points},
-                               {"min_alpha", a.minAlpha},
-                               {"seed", a.seed},
-                               {"samples", a.metrics.samples},
-                               {"directions", a.metrics.directions},
-                               {"quads", a.metrics.quads},
-                               {"lights", a.metrics.lights}};
+    nlohmann::ordered_json out{{"points", a.points},           {"count", scores[0].points},
+                               {"min_alpha", a.minAlpha},      {"seed", a.seed},
+                               {"samples", a.metrics.samples}, {"directions", a.metrics.directions},
+                               {"quads", a.metrics.quads},     {"lights", a.metrics.lights}};
     out["tables"] = {toJson(a.table, scores[0])};
     if (scores.size() > 1) out["tables"].push_back(toJson(a.against, scores[1]));
     fmt::print("{}\n", out.dump(2));
     return kExitOk;
   }
-  fmt::print("{} points{}, seed {}; {} samples, {} directions, {} quads, {} lights of each size\n\n", scores[0].points,
+  fmt::print("{} points{}, seed {}; {} samples, {} directions, {} quads, {} lights of each size\n\n",
+             scores[0].points,
              a.points == "nodes" ? fmt::format(" of {} nodes", table.nodeCount()) : " " + a.points, a.seed,
              a.metrics.samples, a.metrics.directions, a.metrics.quads, a.metrics.lights);
   fmt::print("{} ({})\n", a.table, describe(table));
@@ -134,12 +145,19 @@ int scoreCommand(const ScoreArguments& a) {
 }  // namespace
 
 void addScoreCommand(CLI::App& app, CommandStatus& status) {
-  CLI::App* const command = app.add_subcommand("score", "Measure a table's error, alone or next to another one");
+  CLI::App* const command =
+      app.add_subcommand("score", "Measure a table's error, alone or next to another one");
   auto a = std::make_shared<ScoreArguments>();
-  command->add_option("table", a->table, "Table to score: ltcfit's JSON, or a published table (.npy, DDS; the first texture)")
-      ->required();
-  command->add_option("--against", a->against, "Second table, scored at the same points");
-  command->add_option("--points", a->points, "nodes: the table's own; off-grid: random, fetched as a shader does;\nextreme: sharp and grazing")
+  command
+      ->add_option("table", a->table,
+                   "Table to score: ltcfit's JSON, or a published table (.npy, DDS; the first texture)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--against", a->against, "Second table, scored at the same points")->type_name("FILE");
+  command
+      ->add_option(
+          "--points", a->points,
+          "nodes: the table's own; off-grid: random, fetched as a shader does;\nextreme: sharp and grazing")
       ->check(CLI::IsMember({"nodes", "off-grid", "extreme"}))
       ->capture_default_str();
   command->add_option("--count", a->count, "Number of points; 0 = all nodes")
@@ -148,13 +166,21 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--min-alpha", a->minAlpha, "Leave out points with a smaller GGX alpha; 0..1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--seed", a->seed, "Seed of points, samples and lights")->check(CLI::NonNegativeNumber)->capture_default_str();
+  command->add_option("--seed", a->seed, "Seed of points, samples and lights")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--samples", a->metrics.samples, "Directions of table and lobe for SW1, TV, L3")
       ->check(CLI::Range(16, 1 << 22))
       ->capture_default_str();
-  command->add_option("--directions", a->metrics.directions, "Projections for SW1")->check(CLI::Range(1, 65536))->capture_default_str();
-  command->add_option("--quads", a->metrics.quads, "Random quads for form")->check(CLI::Range(1, 65536))->capture_default_str();
-  command->add_option("--lights", a->metrics.lights, "Random lights of each size")->check(CLI::Range(1, 65536))->capture_default_str();
+  command->add_option("--directions", a->metrics.directions, "Projections for SW1")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("--quads", a->metrics.quads, "Random quads for form")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("--lights", a->metrics.lights, "Random lights of each size")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
   command->add_flag("--interpolation", a->interpolation,
                     "Also fit each point directly (L3) and report the interpolation ratio; isotropic tables");
   command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the result")

@@ -88,8 +88,10 @@ void checkWritable(const std::string& path) {
   if (path.empty()) throw InputError("the output path is empty");
   if (fs::is_directory(path, ignored)) throw InputError(path + ": is a folder, not a file");
   const fs::path folder = folderOf(path);
-  if (!fs::is_directory(folder, ignored)) throw InputError(path + ": the folder " + folder.string() + " does not exist");
-  if (::access(folder.c_str(), W_OK) != 0) throw InputError(path + ": cannot write into its folder: " + std::strerror(errno));
+  if (!fs::is_directory(folder, ignored))
+    throw InputError(path + ": the folder " + folder.string() + " does not exist");
+  if (::access(folder.c_str(), W_OK) != 0)
+    throw InputError(path + ": cannot write into its folder: " + std::strerror(errno));
 }
 
 std::string readFile(const std::string& path, std::uint64_t limit) {

@@ -8,23 +8,24 @@
 
 namespace ltcfit {
 
-/// Writing failed at run time (disk full, folder gone): the message names the file and the reason. Exit code 1.
+/// Writing failed at run time (disk full, folder gone): the message names the file and the reason. Exit
+/// code 1.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the user gave is not usable: a file that is not there or not what it claims to be, a path that cannot be
-/// written. The message names the file and the field or reason. Exit code 2.
+/// What the user gave is not usable: a file that is not there or not what it claims to be, a path that cannot
+/// be written. The message names the file and the field or reason. Exit code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Writes `bytes` to `path`, replacing what was there. Whoever kills the program at whatever moment finds the old
-/// file or the new one, never a part: the bytes go to a file without a name (O_TMPFILE) that is linked and
-/// renamed when complete and flushed; where the file system has none, to PATH.tmp-PID. Throws FileError and
-/// leaves nothing behind when anything fails, a full disk included.
+/// Writes `bytes` to `path`, replacing what was there. Whoever kills the program at whatever moment finds the
+/// old file or the new one, never a part: the bytes go to a file without a name (O_TMPFILE) that is linked
+/// and renamed when complete and flushed; where the file system has none, to PATH.tmp-PID. Throws FileError
+/// and leaves nothing behind when anything fails, a full disk included.
 void writeFileAtomically(const std::string& path, std::string_view bytes);
 
 /// Throws InputError unless a file could be created at `path` (its folder exists and is writable, it is not a

@@ -21,8 +21,11 @@ Json provenanceToJson(const Provenance& p) {
   for (const auto& [key, value] : p.options) {
     std::visit([&, &name = key](const auto& v) { options[name] = v; }, value);
   }
-  return {{"tool", p.tool},       {"tool_version", p.toolVersion}, {"command", p.command},
-          {"seed", p.seed}, {"options", options}};
+  return {{"tool", p.tool},
+          {"tool_version", p.toolVersion},
+          {"command", p.command},
+          {"seed", p.seed},
+          {"options", options}};
 }
 
 // Access with messages that name the field.
@@ -124,7 +127,8 @@ Table readTable(const Json& json) {
   if (file.text("format") != kFormat) throw InputError("format is not \"" + std::string(kFormat) + "\"");
   const Json& version = file.get("version");
   if (!version.is_number_integer() || version != kVersion) {
-    throw InputError(fmt::format("version {} is not known; this program reads version {}", version.dump(), kVersion));
+    throw InputError(
+        fmt::format("version {} is not known; this program reads version {}", version.dump(), kVersion));
   }
   TableInfo info;
   info.brdf = file.text("brdf");
@@ -136,7 +140,8 @@ Table readTable(const Json& json) {
   info.stores = matrixStorageFromName(matrix.text("stores"));
   info.normalization = matrixNormalizationFromName(matrix.text("normalization"));
   for (const Json& channel : file.array("channels")) {
-    if (!channel.is_string()) throw InputError(fmt::format("channels[{}] is not a string", info.channels.size()));
+    if (!channel.is_string())
+      throw InputError(fmt::format("channels[{}] is not a string", info.channels.size()));
     info.channels.push_back(channel.get<std::string>());
   }
   if (file.has("alpha_floor")) info.alphaFloor = file.number("alpha_floor");
@@ -195,8 +200,8 @@ Table tableFromJson(std::string_view text, const std::string& name) {
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());
   } catch (const Json::parse_error& error) {
-    throw InputError(fmt::format("{}: not valid JSON at byte {} of {} (truncated or damaged?)", name, error.byte,
-                                  text.size()));
+    throw InputError(fmt::format("{}: not valid JSON at byte {} of {} (truncated or damaged?)", name,
+                                 error.byte, text.size()));
   } catch (const Json::exception& error) {
     throw InputError(name + ": " + error.what());
   } catch (const std::invalid_argument& error) {

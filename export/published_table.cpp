@@ -71,7 +71,9 @@ std::vector<std::size_t> parseShape(std::string_view header, const std::string& 
   return shape;
 }
 
-std::string shapeText(const std::vector<std::size_t>& shape) { return fmt::format("({})", fmt::join(shape, ", ")); }
+std::string shapeText(const std::vector<std::size_t>& shape) {
+  return fmt::format("({})", fmt::join(shape, ", "));
+}
 
 Axis withLastValue(Axis axis, double value) {
   axis.values.back() = value;
@@ -80,11 +82,16 @@ Axis withLastValue(Axis axis, double value) {
 
 }  // namespace
 
-bool isNpy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
-bool isDds(std::string_view bytes) { return bytes.starts_with(kDdsMagic); }
+bool isNpy(std::string_view bytes) {
+  return bytes.starts_with(kNpyMagic);
+}
+bool isDds(std::string_view bytes) {
+  return bytes.starts_with(kDdsMagic);
+}
 
 FloatArray parseNpy(std::string_view bytes, const std::string& name) {
-  if (!isNpy(bytes) || bytes.size() < 12) throw InputError(name + ": not a .npy file, or cut off in its header");
+  if (!isNpy(bytes) || bytes.size() < 12)
+    throw InputError(name + ": not a .npy file, or cut off in its header");
   const int major = static_cast<unsigned char>(bytes[6]);
   if (major < 1 || major > 3) throw InputError(fmt::format("{}: .npy version {} is not known", name, major));
   const std::size_t start = major == 1 ? 10 : 12;
@@ -102,7 +109,8 @@ FloatArray parseNpy(std::string_view bytes, const std::string& name) {
   const std::size_t count = numberCount(array.shape);
   const std::size_t present = bytes.size() - start - length;
   if (count == 0 || count * sizeof(float) != present) {
-    throw InputError(fmt::format("{}: shape {} does not fit the {} bytes of data", name, shapeText(array.shape), present));
+    throw InputError(
+        fmt::format("{}: shape {} does not fit the {} bytes of data", name, shapeText(array.shape), present));
   }
   array.values.resize(count);
   std::memcpy(array.values.data(), bytes.data() + start + length, present);
@@ -125,7 +133,8 @@ FloatArray parseDds(std::string_view bytes, const std::string& name) {
   const std::size_t count = numberCount(array.shape);
   const std::size_t present = bytes.size() - kHeader;
   if (count == 0 || count * sizeof(std::uint16_t) != present) {
-    throw InputError(fmt::format("{}: {} x {} texels do not fit the {} bytes of data", name, width, height, present));
+    throw InputError(
+        fmt::format("{}: {} x {} texels do not fit the {} bytes of data", name, width, height, present));
   }
   array.values.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -138,17 +147,19 @@ FloatArray parseDds(std::string_view bytes, const std::string& name) {
 
 Table tableFrom2017(const FloatArray& first, const FloatArray* second, const std::string& name) {
   if (first.shape.size() != 3 || first.shape[2] != 4 || first.shape[0] < 2 || first.shape[1] < 2) {
-    throw InputError(name + ": shape " + shapeText(first.shape) +
-                      " is neither (y, x, 4), the 2017 table, nor (alpha, lambda, theta, phi, 3, 3), the 2022 one");
+    throw InputError(
+        name + ": shape " + shapeText(first.shape) +
+        " is neither (y, x, 4), the 2017 table, nor (alpha, lambda, theta, phi, 3, 3), the 2022 one");
   }
   if (second != nullptr && second->shape != first.shape) {
     throw InputError(name + ": the second texture's shape " + shapeText(second->shape) + " is not " +
-                      shapeText(first.shape));
+                     shapeText(first.shape));
   }
   const std::size_t texels = first.shape[0] * first.shape[1];
   bool thirdIsZero = true;
   for (std::size_t i = 0; i < texels; ++i) thirdIsZero = thirdIsZero && first.values[i * 4 + 2] == 0.0f;
-  if (thirdIsZero) throw InputError(name + ": this is the second texture (norm, Fresnel); give the first one");
+  if (thirdIsZero)
+    throw InputError(name + ": this is the second texture (norm, Fresnel); give the first one");
 
   TableInfo info;
   info.stores = MatrixStorage::kMinv;
@@ -176,7 +187,8 @@ Table tableFrom2017(const FloatArray& first, const FloatArray* second, const std
 
 Table tableFrom2022(const FloatArray& array, const std::string& name) {
   const auto& s = array.shape;
-  if (s.size() != 6 || s[4] != 3 || s[5] != 3) throw InputError(name + ": shape " + shapeText(s) + " is not (.., 3, 3)");
+  if (s.size() != 6 || s[4] != 3 || s[5] != 3)
+    throw InputError(name + ": shape " + shapeText(s) + " is not (.., 3, 3)");
   TableInfo info;
   info.stores = MatrixStorage::kM;
   info.normalization = MatrixNormalization::kThirdColumnUnit;

@@ -26,9 +26,9 @@ FloatArray parseNpy(std::string_view bytes, const std::string& name);
 /// A legacy DDS header (128 bytes) with FourCC 113 (RGBA half) and one 2D image: shape {height, width, 4}.
 FloatArray parseDds(std::string_view bytes, const std::string& name);
 
-/// The table of 2017: `first` is [y][x][4] = (Minv00, Minv20, Minv02, Minv22) / Minv11, `second`, if any, holds
-/// norm and Fresnel in its first two channels. x = sqrt(alpha), alpha = max(x^2, 1e-5); y = sqrt(1 - cos theta),
-/// theta <= 1.57: the parameters that its authors fitted.
+/// The table of 2017: `first` is [y][x][4] = (Minv00, Minv20, Minv02, Minv22) / Minv11, `second`, if any,
+/// holds norm and Fresnel in its first two channels. x = sqrt(alpha), alpha = max(x^2, 1e-5); y = sqrt(1 -
+/// cos theta), theta <= 1.57: the parameters that its authors fitted.
 Table tableFrom2017(const FloatArray& first, const FloatArray* second, const std::string& name);
 
 /// The table of 2022: [alpha][lambda][theta][phi][3][3] of M, uniform axes, alpha_x and alpha_y >= 1e-4,

@@ -31,7 +31,8 @@ Table readTable(const std::string& path) {
     if (second.empty()) return tableFrom2017(array, nullptr, path);
     const std::string secondBytes = readFile(second);
     if (!isNpy(secondBytes) && !isDds(secondBytes)) throw InputError(second + ": neither .npy nor DDS");
-    const FloatArray secondArray = isNpy(secondBytes) ? parseNpy(secondBytes, second) : parseDds(secondBytes, second);
+    const FloatArray secondArray =
+        isNpy(secondBytes) ? parseNpy(secondBytes, second) : parseDds(secondBytes, second);
     return tableFrom2017(array, &secondArray, path);
   }
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");

@@ -12,8 +12,8 @@ EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const E
   const IsotropicParametrization parametrization(options.family, normalView, moments.mean, start);
   const L3Objective objective(lobe, moments.albedo, options.samples, options.seed);
   const OptimizerResult best = minimizeNelderMead(
-      [&](std::span<const double> v) { return objective(parametrization.matrix(v)); }, parametrization.start(),
-      parametrization.steps(options.simplexEdge), options.nelderMead);
+      [&](std::span<const double> v) { return objective(parametrization.matrix(v)); },
+      parametrization.start(), parametrization.steps(options.simplexEdge), options.nelderMead);
 
   EntryFit fit;
   fit.m = parametrization.matrix(best.parameters);

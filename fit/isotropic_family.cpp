@@ -15,7 +15,9 @@ constexpr double kSmallestAperture = 1e-12;
 
 }  // namespace
 
-std::string_view familyName(IsotropicFamily family) { return family == IsotropicFamily::kPlane4 ? "4" : "3"; }
+std::string_view familyName(IsotropicFamily family) {
+  return family == IsotropicFamily::kPlane4 ? "4" : "3";
+}
 
 Matrix3d frameAbout(const Vector3d& direction) {
   const double length = std::hypot(direction.x(), direction.z());
@@ -28,8 +30,8 @@ Matrix3d frameAbout(const Vector3d& direction) {
   return frame;
 }
 
-IsotropicParametrization::IsotropicParametrization(IsotropicFamily family, bool normalView, const Vector3d& mean,
-                                                   const Matrix3d& start)
+IsotropicParametrization::IsotropicParametrization(IsotropicFamily family, bool normalView,
+                                                   const Vector3d& mean, const Matrix3d& start)
     : family_(family), normalView_(normalView) {
   const auto aperture = [](double x) { return std::max(std::abs(x), kSmallestAperture); };
   if (normalView_) {

@@ -23,8 +23,8 @@ std::string_view familyName(IsotropicFamily family);
 /// Frame of a direction in the x-z plane: columns X, Y = y, Z = direction; a rotation about y.
 Eigen::Matrix3d frameAbout(const Eigen::Vector3d& direction);
 
-/// Parameters of one entry, scaled so that a step of 0.1 in any of them changes the lobe by about a tenth of its
-/// own width, for alpha = 1e-4 as for alpha = 1 (the raw entries of M differ in scale by 1/alpha):
+/// Parameters of one entry, scaled so that a step of 0.1 in any of them changes the lobe by about a tenth of
+/// its own width, for alpha = 1e-4 as for alpha = 1 (the raw entries of M differ in scale by 1/alpha):
 ///   kPlane4:     M = R(psi) [p 0 0; 0 q 0; s 0 1],     parameters log p, log q, s, (psi - psi_0) / p_0
 ///   kMeanFrame3: M = R(mean) [p 0 t; 0 q 0; 0 0 1],    parameters log p, log q, t / p_0
 ///   view along the normal: M = diag(p, p, 1),          parameter  log p

@@ -18,13 +18,18 @@ using Eigen::Matrix3d;
 
 constexpr std::size_t kSmallestAxis = 2;
 constexpr std::size_t kLargestAxis = 1024;
-// First simplex of a second try against that of the first: it should leave the valley that the first one chose.
+// First simplex of a second try against that of the first: it should leave the valley that the first one
+// chose.
 constexpr double kRefitEdgeFactor = 4.0;
 
+AxisMap angleMap(IsotropicAxes axes) {
+  return axes == IsotropicAxes::k2017 ? AxisMap::kSqrtOneMinusCos : AxisMap::kLinear;
+}
+
 TableInfo makeInfo(const IsotropicFitOptions& o) {
-  const AxisMap angleMap = o.axes == IsotropicAxes::k2017 ? AxisMap::kSqrtOneMinusCos : AxisMap::kLinear;
   TableInfo info;
-  info.axes.push_back(makeAxis("theta", "rad", angleMap, o.thetaNodes, 0.0, 0.5 * std::numbers::pi));
+  info.axes.push_back(makeAxis("theta", "rad", angleMap(o.axes), o.thetaNodes, 0.0, 0.5 * std::numbers::pi));
+  info.axes.back().values.back() = std::min(info.axes.back().values.back(), o.thetaMax);
   info.axes.push_back(makeAxis("alpha", "1", AxisMap::kSqrt, o.alphaNodes, 0.0, 1.0, o.alphaFloor));
   info.stores = MatrixStorage::kM;
   info.normalization = MatrixNormalization::kThirdColumnUnit;
@@ -34,7 +39,9 @@ TableInfo makeInfo(const IsotropicFitOptions& o) {
 }
 
 // det > 0 follows from the parametrisation; it is checked all the same, on the way into the table.
-bool isUsable(const Matrix3d& m) { return m.determinant() > 0.0 && isInvertibleInFloat(m); }
+bool isUsable(const Matrix3d& m) {
+  return m.determinant() > 0.0 && isInvertibleInFloat(m);
+}
 
 // The work on one table: nodes by (theta index t, alpha index a).
 class TableFit {
@@ -50,8 +57,8 @@ class TableFit {
         reports_(nT_ * nA_) {}
 
   IsotropicFitResult run() {
-    // At normal view, from alpha = 1 down: each entry starts from the one before, the first from the identity,
-    // which is nearly its solution.
+    // At normal view, from alpha = 1 down: each entry starts from the one before, the first from the
+    // identity, which is nearly its solution.
     for (std::size_t a = nA_; a-- > 0;) {
       const bool first = a + 1 == nA_;
       fitFirst(0, a, first ? Start{0, a, WarmStart::kIdentity} : Start{0, a + 1, WarmStart::kAlphaNeighbour});
@@ -72,16 +79,22 @@ class TableFit {
     WarmStart kind;
   };
 
-  std::size_t flat(std::size_t t, std::size_t a) const { return t * nA_ + a; }
-  double theta(std::size_t t) const { return info_.axes[0].values[t]; }
-  double alpha(std::size_t a) const { return info_.axes[1].values[a]; }
+  std::size_t flat(std::size_t t, std::size_t a) const {
+    return t * nA_ + a;
+  }
+  double theta(std::size_t t) const {
+    return info_.axes[0].values[t];
+  }
+  double alpha(std::size_t a) const {
+    return info_.axes[1].values[a];
+  }
   GgxLobe lobe(std::size_t t, std::size_t a) const {
     return GgxLobe(viewDirection(theta(t), 0.0), {alpha(a), alpha(a)});
   }
 
-  // The neighbour's matrix, carried into this entry's frame of the mean direction and scaled by the ratios of the
-  // lobes' widths: a sharp lobe turns by many of its own widths from one angle node to the next, and near grazing
-  // view it narrows by orders of magnitude.
+  // The neighbour's matrix, carried into this entry's frame of the mean direction and scaled by the ratios of
+  // the lobes' widths: a sharp lobe turns by many of its own widths from one angle node to the next, and near
+  // grazing view it narrows by orders of magnitude.
   Matrix3d startMatrix(std::size_t t, std::size_t a, const Start& from) const {
     if (from.kind == WarmStart::kIdentity) return Matrix3d::Identity();
     const std::size_t target = flat(t, a);
@@ -123,7 +136,8 @@ class TableFit {
     if (fit.relativeL3 < kGoodEnough) return false;
     std::vector<double> errors;
     for (const Start& n : neighbours(t, a)) errors.push_back(reports_[flat(n.t, n.a)].fit.relativeL3);
-    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
+    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                     errors.end());
     return !(fit.relativeL3 <= kNeighbourFactor * errors[errors.size() / 2]);
   }
 
@@ -168,7 +182,8 @@ class TableFit {
       EntryReport& report = reports_[i];
       const Matrix3d m = normalized(report.fit.m, info_.normalization);
       report.usable = isUsable(m) && report.fit.relativeL3 < 1.0;
-      for (double x : {m(0, 0), m(0, 2), m(1, 1), m(2, 0), m(2, 2), moments_[i].albedo, moments_[i].fresnel}) {
+      for (double x :
+           {m(0, 0), m(0, 2), m(1, 1), m(2, 0), m(2, 2), moments_[i].albedo, moments_[i].fresnel}) {
         result.data.push_back(static_cast<float>(x));
       }
       result.evaluations += report.totalEvaluations;
@@ -212,8 +227,9 @@ std::string_view warmStartName(WarmStart start) {
 bool IsotropicFitOptions::isValid(std::string* error) const {
   const auto inRange = [](std::size_t n) { return n >= kSmallestAxis && n <= kLargestAxis; };
   if (!inRange(thetaNodes) || !inRange(alphaNodes)) {
-    *error = "--size " + std::to_string(thetaNodes) + "x" + std::to_string(alphaNodes) + ": each must be in [" +
-             std::to_string(kSmallestAxis) + ", " + std::to_string(kLargestAxis) + "]";
+    *error = "--size " + std::to_string(thetaNodes) + "x" + std::to_string(alphaNodes) +
+             ": each must be in [" + std::to_string(kSmallestAxis) + ", " + std::to_string(kLargestAxis) +
+             "]";
     return false;
   }
   if (!(alphaFloor >= 1e-5) || !(alphaFloor < 1.0)) {
@@ -223,7 +239,15 @@ bool IsotropicFitOptions::isValid(std::string* error) const {
   const double secondNode = 1.0 / static_cast<double>(alphaNodes - 1);
   if (alphaFloor >= secondNode * secondNode) {
     *error = "--alpha-floor " + std::to_string(alphaFloor) + ": with " + std::to_string(alphaNodes) +
-             " alpha nodes it must be below the second one's alpha, " + std::to_string(secondNode * secondNode);
+             " alpha nodes it must be below the second one's alpha, " +
+             std::to_string(secondNode * secondNode);
+    return false;
+  }
+  const double beforeLast = makeAxis("theta", "rad", angleMap(axes), thetaNodes, 0.0, 0.5 * std::numbers::pi)
+                                .values[thetaNodes - 2];
+  if (!(thetaMax > beforeLast) || thetaMax > 0.5 * std::numbers::pi) {
+    *error = "--theta-max " + std::to_string(thetaMax) + ": must be above the node before the last, " +
+             std::to_string(beforeLast) + ", and at most pi/2";
     return false;
   }
   if (entry.samples < 16 || entry.samples > 1 << 22) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct IsotropicFitOptions {
   std::size_t alphaNodes = 64;
   IsotropicAxes axes = IsotropicAxes::k2017;
   double alphaFloor = 1e-4;  ///< alpha of the node at sqrt(alpha) = 0, in [1e-5, 1)
+  /// theta of the last node, radians, at most pi/2. Grazing view needs no clamp; the 2017 table has 1.57.
+  double thetaMax = 0.5 * std::numbers::pi;
   EntryFitOptions entry;
   int threads = 0;  ///< 0: as many as OpenMP offers
 
@@ -42,8 +45,8 @@ struct EntryReport {
 };
 
 struct IsotropicFitResult {
-  TableInfo info;           ///< without provenance
-  std::vector<float> data;  ///< float32, ready for Table
+  TableInfo info;                    ///< without provenance
+  std::vector<float> data;           ///< float32, ready for Table
   std::vector<EntryReport> reports;  ///< in the order of the nodes, theta slowest
   std::size_t refitted = 0;
   std::size_t improvedByRefit = 0;
@@ -58,14 +61,14 @@ using FitProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Fits every entry, as Heitz et al. 2016 describe: from alpha = 1 down at normal view, then along theta from
 /// the neighbour before, rows of equal alpha in parallel. An entry that did not converge, or whose relativeL3
-/// is more than kNeighbourFactor times the median of its neighbours', is fitted again from each neighbour and from
-/// the lobe's own shape, with a wider simplex.
-/// The result is the same, bit for bit, for any number of threads. `options` must be valid.
+/// is more than kNeighbourFactor times the median of its neighbours', is fitted again from each neighbour and
+/// from the lobe's own shape, with a wider simplex. The result is the same, bit for bit, for any number of
+/// threads. `options` must be valid.
 IsotropicFitResult fitIsotropicTable(const IsotropicFitOptions& options, const FitProgress& progress = {});
 
-/// How much worse than its neighbours an entry may be before it is tried again. In the default table (and for both
-/// families) sound entries stay below 1.04; the one local minimum seen, family 3 at theta = 90 degrees and
-/// alpha = 1e-5, was at 1.23 (ltcfit fit iso --report).
+/// How much worse than its neighbours an entry may be before it is tried again. In the default table (and for
+/// both families) sound entries stay below 1.04; the one local minimum seen, family 3 at theta = 90 degrees
+/// and alpha = 1e-5, was at 1.23 (ltcfit fit iso --report).
 inline constexpr double kNeighbourFactor = 1.15;
 /// A relative L3 error below which no entry is tried again: the neighbours' then differ by sampling noise.
 inline constexpr double kGoodEnough = 2e-3;

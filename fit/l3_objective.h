@@ -9,12 +9,13 @@
 
 namespace ltcfit {
 
-/// cost(M) = integral over the sphere of |rho cos - n_D f_M|^3, with f_M the LTC of M (Heitz et al. 2016, section
-/// 4: "minimizing the L3 error"). Estimated from n directions of the lobe and n of the LTC with the balance
-/// heuristic; the points are fixed by the seed, so that the cost is a smooth, deterministic function of M.
+/// cost(M) = integral over the sphere of |rho cos - n_D f_M|^3, with f_M the LTC of M (Heitz et al. 2016,
+/// section 4: "minimizing the L3 error"). Estimated from n directions of the lobe and n of the LTC with the
+/// balance heuristic; the points are fixed by the seed, so that the cost is a smooth, deterministic function
+/// of M.
 ///
-/// The lobe's own directions, with their eval and pdf, are drawn once. Those of the LTC are M times fixed cosine
-/// samples, so that f_M there needs no inverse.
+/// The lobe's own directions, with their eval and pdf, are drawn once. Those of the LTC are M times fixed
+/// cosine samples, so that f_M there needs no inverse.
 class L3Objective {
  public:
   /// `albedo` n_D > 0 of the lobe; `samples` >= 1 directions of each of the two kinds. Keeps a reference to
@@ -25,8 +26,8 @@ class L3Objective {
   /// Thread-safe: calls share nothing.
   double operator()(const Eigen::Matrix3d& m) const;
 
-  /// integral of |rho cos|^3 by the lobe's samples: cost / lobeCube() is free of the lobe's scale, 1 for a model
-  /// that is 0 everywhere.
+  /// integral of |rho cos|^3 by the lobe's samples: cost / lobeCube() is free of the lobe's scale, 1 for a
+  /// model that is 0 everywhere.
   double lobeCube() const { return lobeCube_; }
 
  private:

@@ -12,9 +12,9 @@ namespace {
 
 // A start needs the widths to some 10 %.
 constexpr int kSamples = 256;
-// Median of |x| over the unit disk, where cosine directions project uniformly: the root of
-// (2 / pi) (asin m + m sqrt(1 - m^2)) = 1/2.
-constexpr double kCosineMedian = 0.40397275329951721;
+// Median of |x / z| over cosine directions: a slope t has the distribution (1 + t / sqrt(1 + t^2)) / 2, so
+// t / sqrt(1 + t^2) = 1/2. A narrow lobe shows the slopes; for a wide one the start is somewhat too narrow.
+constexpr double kCosineMedian = 0.57735026918962576;
 // A width that no lobe of interest has: keeps logarithms and ratios finite.
 constexpr double kSmallest = 1e-12;
 

@@ -48,13 +48,13 @@ inline const std::array<RulePoint, kRulePoints>& radonRule() {
   return rule;
 }
 
-/// Integrates a vector of Integrand::kCount functions. The integrand turns a direction and the lobe's value there
-/// into its vector, `Values operator()(const Vector3d& wi, double eval)`, and says by
-/// `double deviation(const Values& difference)` how large a difference between two estimates of a cell is.
+/// Integrates a vector of Integrand::kCount functions. The integrand turns a direction and the lobe's value
+/// there into its vector, `Values operator()(const Vector3d& wi, double eval)`, and says by `double
+/// deviation(const Values& difference)` how large a difference between two estimates of a cell is.
 ///
-/// First a triangle is bisected, across the edge that is longest in the lobe's own coordinates, until no peak can
-/// hide between the points of the rule: the cells follow ridges, which at grazing view are 1/alpha times longer
-/// than wide. Then cells are split into quarters while that changes them by more than the tolerance.
+/// First a triangle is bisected, across the edge that is longest in the lobe's own coordinates, until no peak
+/// can hide between the points of the rule: the cells follow ridges, which at grazing view are 1/alpha times
+/// longer than wide. Then cells are split into quarters while that changes them by more than the tolerance.
 template <class Integrand>
 class Cubature {
  public:
@@ -63,11 +63,13 @@ class Cubature {
   Cubature(const Lobe& lobe, const Integrand& integrand, double cellTolerance)
       : lobe_(lobe), integrand_(integrand), cellTolerance_(cellTolerance) {}
 
-  void add(const Triangle& triangle) { bisect({triangle.p, {view(triangle.p[0]), view(triangle.p[1]), view(triangle.p[2])}}, 0); }
+  void add(const Triangle& triangle) {
+    bisect({triangle.p, {view(triangle.p[0]), view(triangle.p[1]), view(triangle.p[2])}}, 0);
+  }
 
   const Values& values() const { return values_; }
-  /// Sum over the accepted cells of the deviation between cell and quarters, over 15: for a rule of degree 5 the
-  /// quarters are better by 2^6 or more where the integrand is smooth, so this leaves a margin.
+  /// Sum over the accepted cells of the deviation between cell and quarters, over 15: for a rule of degree 5
+  /// the quarters are better by 2^6 or more where the integrand is smooth, so this leaves a margin.
   double error() const { return error_; }
   std::size_t evaluations() const { return evaluations_; }
 
@@ -75,9 +77,9 @@ class Cubature {
   // Cells end up no wider than this seen from the origin (radians, about), and in the stretched coordinates.
   static constexpr double kWidestCell = 0.6;
   static constexpr double kWidestStretched = 0.9;
-  // Each bisection halves the area, so after this many a cell covers 1e-24 sr, a mass of 1e-10 under the sharpest
-  // lobe there is (alpha = 1e-5 at grazing view: a peak of 1e14). Reached at singular points of the stretched
-  // coordinates (the mirror direction at theta = 90 degrees) and by slivers along curved ridges.
+  // Each bisection halves the area, so after this many a cell covers 1e-24 sr, a mass of 1e-10 under the
+  // sharpest lobe there is (alpha = 1e-5 at grazing view: a peak of 1e14). Reached at singular points of the
+  // stretched coordinates (the mirror direction at theta = 90 degrees) and by slivers along curved ridges.
   static constexpr int kMaxBisections = 80;
   // Quarterings of a cell; not reached where the integrand is bounded.
   static constexpr int kMaxDepth = 12;

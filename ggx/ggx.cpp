@@ -26,7 +26,9 @@ double ggxLambda(const Vector3d& w, GgxAlpha alpha) {
   return 0.5 * t / (1.0 + std::sqrt(1.0 + t));
 }
 
-double ggxG1(const Vector3d& w, GgxAlpha alpha) { return 1.0 / (1.0 + ggxLambda(w, alpha)); }
+double ggxG1(const Vector3d& w, GgxAlpha alpha) {
+  return 1.0 / (1.0 + ggxLambda(w, alpha));
+}
 
 double ggxG2(const Vector3d& wo, const Vector3d& wi, GgxAlpha alpha) {
   return 1.0 / (1.0 + ggxLambda(wo, alpha) + ggxLambda(wi, alpha));

@@ -1,4 +1,5 @@
-// The GGX lobe as a fit target: density, sampling and rejection, valid up to grazing view (theta = 90 degrees).
+// The GGX lobe as a fit target: density, sampling and rejection, valid up to grazing view (theta = 90
+// degrees).
 #pragma once
 
 #include <optional>
@@ -29,8 +30,8 @@ class GgxLobe final : public Lobe {
   void evalBatch(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                  std::span<double> eval, std::span<double> pdf) const override;
 
-  /// The half vector in the configuration of roughness 1, where D is the fourth power of its cosine, and G2 / G1(wo),
-  /// which at grazing view falls to 0 in a thin layer at the horizon.
+  /// The half vector in the configuration of roughness 1, where D is the fourth power of its cosine, and G2 /
+  /// G1(wo), which at grazing view falls to 0 in a thin layer at the horizon.
   Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const override;
 
   /// Probability to keep a reflected visible normal so that the kept ones follow eval exactly:

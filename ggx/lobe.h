@@ -13,8 +13,8 @@ struct LobeSample {
   double weight;       ///< eval(wi) / pdf(wi), finite
 };
 
-/// The cosine-weighted BRDF rho(wo, wi) cos theta_i of one view direction, without Fresnel (F = 1): the target
-/// of every fit. Its integral over wi is the directional albedo, see moments.h.
+/// The cosine-weighted BRDF rho(wo, wi) cos theta_i of one view direction, without Fresnel (F = 1): the
+/// target of every fit. Its integral over wi is the directional albedo, see moments.h.
 class Lobe {
  public:
   virtual ~Lobe() = default;
@@ -36,9 +36,9 @@ class Lobe {
   virtual void evalBatch(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                          std::span<double> eval, std::span<double> pdf) const;
 
-  /// Four numbers of order 1 for each wi that vary smoothly where the lobe is smooth and fast where it is sharp: in
-  /// these coordinates it has no feature narrower than about 1, however small alpha. Guides quadrature, whose
-  /// cells are split until they are small in them. NaN where undefined.
+  /// Four numbers of order 1 for each wi that vary smoothly where the lobe is smooth and fast where it is
+  /// sharp: in these coordinates it has no feature narrower than about 1, however small alpha. Guides
+  /// quadrature, whose cells are split until they are small in them. NaN where undefined.
   virtual Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const = 0;
 
  protected:

@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 
 // Samples for the first, rough estimate of the lobe's squared width; within 20 % is enough.
 constexpr int kPilotSamples = 256;
-// Weight of the relative change of the squared width against the absolute one of the albedo: a width to 1e-3 or
-// so is plenty, and its tails cost cells.
+// Weight of the relative change of the squared width against the absolute one of the albedo: a width to 1e-3
+// or so is plenty, and its tails cost cells.
 constexpr double kWidthWeight = 0.02;
 
-// Albedo, Schlick-weighted albedo, squared width about the mirror direction, first moment about it. Moments about
-// a point inside the lobe, since those about the origin lose the width of a sharp one to rounding.
+// Albedo, Schlick-weighted albedo, squared width about the mirror direction, first moment about it. Moments
+// about a point inside the lobe, since those about the origin lose the width of a sharp one to rounding.
 struct MomentIntegrand {
   static constexpr int kCount = 6;
   using Values = Eigen::Array<double, kCount, 1>;
@@ -63,9 +63,9 @@ LobeMoments computeMoments(const Lobe& lobe, const MomentsOptions& options) {
   const Vector3d mirror(-lobe.wo().x(), -lobe.wo().y(), lobe.wo().z());
   const MomentIntegrand integrand{lobe.wo(), mirror, pilotWidth2(lobe, mirror)};
   internal::Cubature<MomentIntegrand> cubature(lobe, integrand, options.cellTolerance);
-  // The hemisphere as the four upper faces of an octahedron with one edge plane through the view direction: the
-  // mirror direction then lies on an edge, where subdivision finds it, and the halves of an isotropic lobe are
-  // treated alike.
+  // The hemisphere as the four upper faces of an octahedron with one edge plane through the view direction:
+  // the mirror direction then lies on an edge, where subdivision finds it, and the halves of an isotropic
+  // lobe are treated alike.
   const double length = std::hypot(lobe.wo().x(), lobe.wo().y());
   const double c = length > 0.0 ? lobe.wo().x() / length : 1.0;
   const double s = length > 0.0 ? lobe.wo().y() / length : 0.0;

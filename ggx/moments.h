@@ -8,9 +8,9 @@
 namespace ltcfit {
 
 struct MomentsOptions {
-  /// A cell of the adaptive rule is split while it changes albedo or fresnel by more than this. The error of the
-  /// sum is of the same order: below 1e-5 at the default for every view, alpha in [1e-5, 1] and 100:1 anisotropy
-  /// (tests/ggx/moments_test.cpp).
+  /// A cell of the adaptive rule is split while it changes albedo or fresnel by more than this. The error of
+  /// the sum is of the same order: below 1e-5 at the default for every view, alpha in [1e-5, 1] and 100:1
+  /// anisotropy (tests/ggx/moments_test.cpp).
   double cellTolerance = 5e-7;
 };
 
@@ -22,8 +22,8 @@ struct LobeMoments {
   double fresnel = 0.0;
   /// Mean of wi under eval / n_D: length in (0, 1], shorter for a wider lobe.
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  /// acos of the mean's length, radians: the width by which metrics are made comparable (SW1rel, form). Computed
-  /// without the cancellation of 1 - |mean|, so that it keeps its digits for alpha = 1e-5.
+  /// acos of the mean's length, radians: the width by which metrics are made comparable (SW1rel, form).
+  /// Computed without the cancellation of 1 - |mean|, so that it keeps its digits for alpha = 1e-5.
   double spread = 0.0;
   /// Estimated absolute error of albedo and fresnel.
   double error = 0.0;

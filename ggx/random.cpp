@@ -11,7 +11,9 @@ namespace {
 constexpr std::uint64_t kStepX = 0xC13FA9A902A6328Full;
 constexpr std::uint64_t kStepY = 0x91E10DA5C79E7B1Dull;
 
-double toUnit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+double toUnit(std::uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 }  // namespace
 
@@ -28,7 +30,9 @@ Eigen::Vector2d R2Sequence::operator()(std::uint64_t index) const {
   return {toUnit(startX_ + (index + 1) * kStepX), toUnit(startY_ + (index + 1) * kStepY)};
 }
 
-double Random::uniform() { return toUnit(engine_()); }
+double Random::uniform() {
+  return toUnit(engine_());
+}
 
 double Random::normal() {
   const double u = 1.0 - uniform();  // in (0, 1]: the logarithm stays finite

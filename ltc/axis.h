@@ -21,14 +21,14 @@ enum class AxisMap {
 double mapCoordinate(AxisMap map, double v);
 double unmapCoordinate(AxisMap map, double u);
 
-/// The name in the table file ("linear", "sqrt", "sqrt-one-minus-cos"; "" for kNone), and back. An unknown name
-/// throws std::invalid_argument.
+/// The name in the table file ("linear", "sqrt", "sqrt-one-minus-cos"; "" for kNone), and back. An unknown
+/// name throws std::invalid_argument.
 std::string_view axisMapName(AxisMap map);
 AxisMap axisMapFromName(std::string_view name);
 
 /// One axis. Node i of n sits at texel i; texel t belongs to the physical coordinate
-/// unmap(map(low) + t / (n - 1) (map(high) - map(low))). A value may differ from its texel's coordinate only at
-/// the ends, where the fit was clamped (alpha floor, grazing angle): the shader's formula still holds.
+/// unmap(map(low) + t / (n - 1) (map(high) - map(low))). A value may differ from its texel's coordinate only
+/// at the ends, where the fit was clamped (alpha floor, grazing angle): the shader's formula still holds.
 struct Axis {
   std::string name;            ///< theta, phi, alpha, lambda, alpha_x or alpha_y
   std::string unit;            ///< "rad" or "1"

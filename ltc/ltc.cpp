@@ -13,7 +13,9 @@ namespace ltcfit {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-double cosineDensity(const Vector3d& w) { return std::max(0.0, w.z()) * std::numbers::inv_pi; }
+double cosineDensity(const Vector3d& w) {
+  return std::max(0.0, w.z()) * std::numbers::inv_pi;
+}
 
 Vector3d sampleCosine(const Eigen::Vector2d& u) {
   const double r = std::sqrt(u.x());

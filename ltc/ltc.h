@@ -11,9 +11,9 @@ double cosineDensity(const Eigen::Vector3d& w);
 /// A direction of that density for `u` in [0, 1)^2: the disk is mapped by radius and azimuth, then lifted.
 Eigen::Vector3d sampleCosine(const Eigen::Vector2d& u);
 
-/// The distribution of M x / |M x| for x from the clamped cosine (Heitz et al. 2016, section 3). It integrates
-/// to 1 over the sphere; part of it may lie below the horizon. Invariant under M -> s M (s > 0) and under
-/// M -> M R with R a rotation about z or a flip of x or y.
+/// The distribution of M x / |M x| for x from the clamped cosine (Heitz et al. 2016, section 3). It
+/// integrates to 1 over the sphere; part of it may lie below the horizon. Invariant under M -> s M (s > 0)
+/// and under M -> M R with R a rotation about z or a flip of x or y.
 class Ltc {
  public:
   /// `m` finite with det m != 0; the lobe of a singular matrix is not a density and aborts as a caller's bug.
@@ -26,8 +26,8 @@ class Ltc {
   /// Density at the unit direction w, per steradian (eq. 1).
   double density(const Eigen::Vector3d& w) const;
 
-  /// d density / d M_rc at w, 3x3, for the derivative at a general matrix. Zero where the density is zero; not
-  /// defined on the boundary of the support (the density is continuous there, its derivative is not).
+  /// d density / d M_rc at w, 3x3, for the derivative at a general matrix. Zero where the density is zero;
+  /// not defined on the boundary of the support (the density is continuous there, its derivative is not).
   Eigen::Matrix3d densityGradient(const Eigen::Vector3d& w) const;
 
   /// The direction M x / |M x| of a cosine sample x.
@@ -42,8 +42,8 @@ class Ltc {
   /// d omega_o / d omega at the unit direction w: |det M^-1| / |M^-1 w|^3 (eq. 19).
   double inverseJacobian(const Eigen::Vector3d& w) const;
 
-  /// Mass below the horizon, in [0, 1], in closed form: M x points down where row 2 of M times x does, and the
-  /// cosine mass of a half space through the origin with unit normal v is (1 + v.z) / 2.
+  /// Mass below the horizon, in [0, 1], in closed form: M x points down where row 2 of M times x does, and
+  /// the cosine mass of a half space through the origin with unit normal v is (1 + v.z) / 2.
   double massBelowHorizon() const;
 
  private:
@@ -52,8 +52,8 @@ class Ltc {
   double det_;
 };
 
-/// Whether float32 arithmetic, a shader's, can invert the matrix: finite entries, det != 0 and finite, a finite
-/// inverse.
+/// Whether float32 arithmetic, a shader's, can invert the matrix: finite entries, det != 0 and finite, a
+/// finite inverse.
 bool isInvertibleInFloat(const Eigen::Matrix3d& m);
 
 }  // namespace ltcfit

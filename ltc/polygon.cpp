@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Angle between a and b times the unit normal of their plane: acos(a.b) (a x b) / |a x b| for unit vectors. atan2
-// keeps its digits where acos loses them, for edges that nearly vanish or nearly span pi, and needs no
+// Angle between a and b times the unit normal of their plane: acos(a.b) (a x b) / |a x b| for unit vectors.
+// atan2 keeps its digits where acos loses them, for edges that nearly vanish or nearly span pi, and needs no
 // normalised input.
 Vector3d edgeIntegral(const Vector3d& a, const Vector3d& b) {
   const Vector3d c = a.cross(b);
@@ -35,8 +35,8 @@ Vector3d horizonPoint(const Vector3d& a, const Vector3d& b) {
 double polygonIrradiance(std::span<const Vector3d> vertices) {
   if (vertices.size() < 3) return 0.0;
   // Sutherland-Hodgman against z = 0, edge by edge: whenever the outline comes back up, the piece of horizon
-  // between the two crossings closes it. For a polygon that is not convex those pieces overlap with signs that
-  // cancel, so that no list of parts is needed.
+  // between the two crossings closes it. For a polygon that is not convex those pieces overlap with signs
+  // that cancel, so that no list of parts is needed.
   double sum = 0.0;
   bool haveExit = false;
   bool haveEntry = false;

@@ -8,12 +8,12 @@
 
 namespace ltcfit {
 
-/// Form factor of a polygon at the origin with normal +z: the integral of max(0, w.z) / pi over the directions
-/// it covers, in [-1, 1] (Heitz et al. 2016, eq. 11; Heitz 2017). `vertices` are points (any length > 0, all
-/// edges seen under less than pi), planar or a spherical polygon, convex or not; closed from last to first.
-/// Positive where they run counterclockwise seen from above, from +z down to the origin; a light that emits
-/// from one side only takes max(0, value), a two-sided one |value|. Exact clipping at the horizon.
-/// Fewer than three vertices give 0. An edge that passes through the origin contributes nothing.
+/// Form factor of a polygon at the origin with normal +z: the integral of max(0, w.z) / pi over the
+/// directions it covers, in [-1, 1] (Heitz et al. 2016, eq. 11; Heitz 2017). `vertices` are points (any
+/// length > 0, all edges seen under less than pi), planar or a spherical polygon, convex or not; closed from
+/// last to first. Positive where they run counterclockwise seen from above, from +z down to the origin; a
+/// light that emits from one side only takes max(0, value), a two-sided one |value|. Exact clipping at the
+/// horizon. Fewer than three vertices give 0. An edge that passes through the origin contributes nothing.
 double polygonIrradiance(std::span<const Eigen::Vector3d> vertices);
 
 /// Integral of the LTC over a polygonal light, in [-1, 1]: polygonIrradiance of M^-1 times the vertices

@@ -9,7 +9,9 @@
 namespace ltcfit {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) { throw std::invalid_argument(what); }
+[[noreturn]] void fail(const std::string& what) {
+  throw std::invalid_argument(what);
+}
 
 struct AxisRange {
   std::string_view name;
@@ -22,7 +24,8 @@ constexpr std::array<AxisRange, 4> kAnisotropicAxes{
     {{"alpha", 0.0, 1.0}, {"lambda", 0.0, 1.0}, {"theta", 0.0, kHalfPi}, {"phi", 0.0, kHalfPi}}};
 // Slack for angles that were written with few digits.
 constexpr double kRangeSlack = 1e-6;
-// A node inside the axis may differ from its texel's coordinate by this much of a texel: rounding in the file.
+// A node inside the axis may differ from its texel's coordinate by this much of a texel: rounding in the
+// file.
 constexpr double kTexelSlack = 1e-3;
 // Nodes per axis: far above any texture, far below what overflows a count.
 constexpr std::size_t kMaxNodes = 65536;
@@ -141,7 +144,8 @@ void Table::bindChannels() {
     int* slot = nullptr;
     if (name == "norm") slot = &normChannel_;
     if (name == "fresnel") slot = &fresnelChannel_;
-    if (name.size() == 3 && name[0] == 'm' && name[1] >= '0' && name[1] <= '2' && name[2] >= '0' && name[2] <= '2') {
+    if (name.size() == 3 && name[0] == 'm' && name[1] >= '0' && name[1] <= '2' && name[2] >= '0' &&
+        name[2] <= '2') {
       slot = &matrixChannel_[static_cast<std::size_t>((name[1] - '0') * 3 + (name[2] - '0'))];
     }
     if (slot == nullptr) fail("channels[" + std::to_string(i) + "]: unknown name '" + name + "'");
@@ -225,7 +229,8 @@ TableEntry Table::fetch(const LobeParameters& p) const {
     }
     if (weight == 0.0) continue;
     const std::size_t offset = index(std::span(node).first(dims));
-    for (std::size_t c = 0; c < channels.size(); ++c) channels[c] += weight * static_cast<double>(data_[offset + c]);
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      channels[c] += weight * static_cast<double>(data_[offset + c]);
   }
   return unpack(channels.data());
 }

@@ -50,7 +50,8 @@ struct Provenance {
   std::vector<std::pair<std::string, Value>> options;
 };
 
-/// Everything about a table but its numbers; the fields are those of the table file (README, "The table file").
+/// Everything about a table but its numbers; the fields are those of the table file (README, "The table
+/// file").
 struct TableInfo {
   std::string brdf = "ggx";
   std::vector<Axis> axes;  ///< slowest first: theta, alpha or alpha, lambda, theta, phi
@@ -74,8 +75,8 @@ struct TableEntry {
 class Table {
  public:
   /// Throws std::invalid_argument naming the field: unknown or doubled channels, no matrix, axes other than
-  /// the two sets above, fewer than 2 nodes, values that do not increase or leave their range, a map that does
-  /// not fit the values, a count that is not the product, a number that is not finite.
+  /// the two sets above, fewer than 2 nodes, values that do not increase or leave their range, a map that
+  /// does not fit the values, a count that is not the product, a number that is not finite.
   Table(TableInfo info, std::vector<float> data);
 
   const TableInfo& info() const { return info_; }

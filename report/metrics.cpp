@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 // True integrals are good to about this, a hundredth of the smallest error that is told apart with them.
 constexpr double kLightTolerance = 1e-6;
 
-// Uniform directions, evenly spread over the upper half (w and -w give the same distance), turned by the seed.
+// Uniform directions, evenly spread over the upper half (w and -w give the same distance), turned by the
+// seed.
 std::vector<Vector3d> evenDirections(int count, std::uint64_t seed) {
   const R2Sequence points(mixSeed(seed, 11));
   std::vector<Vector3d> out;
@@ -34,7 +35,7 @@ std::vector<Vector3d> evenDirections(int count, std::uint64_t seed) {
 
 std::string_view metricName(Metric metric) {
   static constexpr std::array<std::string_view, kMetricCount> kNames{
-      "SW1", "SW1rel", "form", "light_s",      "light_m",       "light_l",   "TV",
+      "SW1", "SW1rel", "form",  "light_s",      "light_m",       "light_l",   "TV",
       "L3",  "L3cost", "below", "albedo_error", "fresnel_error", "det_error", "interpolation_ratio"};
   return kNames[static_cast<std::size_t>(metric)];
 }
@@ -60,7 +61,8 @@ MetricTarget::MetricTarget(const Lobe& lobe, const MetricOptions& options)
     for (std::size_t i = 0; i < lobeDirections_.size(); ++i) {
       if (lobeWeights_[i] > 0.0) sorted.push_back({w.dot(lobeDirections_[i]), lobeWeights_[i]});
     }
-    std::sort(sorted.begin(), sorted.end(), [](const Weighted& a, const Weighted& b) { return a.position < b.position; });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Weighted& a, const Weighted& b) { return a.position < b.position; });
     sortedTarget_.push_back(std::move(sorted));
   }
 
@@ -71,7 +73,8 @@ MetricTarget::MetricTarget(const Lobe& lobe, const MetricOptions& options)
   };
   for (int i = 0; i < options.quads; ++i) quads_.push_back(withIntegral(randomFormQuad(moments_, random)));
   for (std::size_t s = 0; s < kLightSizes.size(); ++s) {
-    for (int i = 0; i < options.lights; ++i) lights_[s].push_back(withIntegral(randomLight(kLightSizes[s], random)));
+    for (int i = 0; i < options.lights; ++i)
+      lights_[s].push_back(withIntegral(randomLight(kLightSizes[s], random)));
   }
 }
 
@@ -145,11 +148,13 @@ EntryMetrics MetricTarget::evaluate(const Ltc& ltc) const {
   return out;
 }
 
-void addEntryErrors(const TableEntry& entry, MatrixStorage stores, const LobeMoments& moments, EntryMetrics& out) {
+void addEntryErrors(const TableEntry& entry, MatrixStorage stores, const LobeMoments& moments,
+                    EntryMetrics& out) {
   if (entry.norm) out.set(Metric::kAlbedoError, std::abs(*entry.norm - moments.albedo));
   if (entry.fresnel) out.set(Metric::kFresnelError, std::abs(*entry.fresnel - moments.fresnel));
-  const Eigen::Matrix3f inverse =
-      stores == MatrixStorage::kM ? Eigen::Matrix3f(entry.m.cast<float>().inverse()) : entry.mInv.cast<float>();
+  const Eigen::Matrix3f inverse = stores == MatrixStorage::kM
+                                      ? Eigen::Matrix3f(entry.m.cast<float>().inverse())
+                                      : entry.mInv.cast<float>();
   const double exact = entry.mInv.determinant();
   const double got = inverse.cast<double>().determinant();
   out.set(Metric::kDetError, std::abs(got / exact - 1.0));

@@ -1,4 +1,5 @@
-// How far an LTC is from its target lobe: every figure of the project. f is the LTC, g = rho cos / n_D the lobe.
+// How far an LTC is from its target lobe: every figure of the project. f is the LTC, g = rho cos / n_D the
+// lobe.
 #pragma once
 
 #include <array>
@@ -15,28 +16,28 @@
 namespace ltcfit {
 
 struct MetricOptions {
-  int samples = 4096;     ///< directions of each of f and g, for SW1, TV and L3
-  int directions = 32;    ///< projections for SW1
-  int quads = 64;         ///< random quads for form
-  int lights = 64;        ///< random lights of each size for light_s, light_m, light_l
+  int samples = 4096;   ///< directions of each of f and g, for SW1, TV and L3
+  int directions = 32;  ///< projections for SW1
+  int quads = 64;       ///< random quads for form
+  int lights = 64;      ///< random lights of each size for light_s, light_m, light_l
   std::uint64_t seed = 1;
 };
 
 /// The metrics of one entry, in the order in which they are printed.
 enum class Metric : std::size_t {
-  kSw1,          ///< sliced Wasserstein distance: mean over directions of integral |F - G| dt, 0..2
-  kSw1Rel,       ///< SW1 / spread of the lobe
-  kForm,         ///< mean over random quads near the lobe of |integral f - integral g|
-  kLightS,       ///< RMS over random lights of n_D |integral f - integral g|: half-size 0.05
-  kLightM,       ///< half-size 0.25
-  kLightL,       ///< half-size 0.8
-  kTv,           ///< total variation, 1/2 integral |f - g|, 0..1
-  kL3,           ///< (integral |f - g|^3)^(1/3), sr^-2/3
-  kL3Cost,       ///< integral |rho cos - n_D f|^3, sr^-2: the objective of Heitz et al. 2016
-  kBelow,        ///< mass of f below the horizon, 0..1
-  kAlbedoError,  ///< |stored norm - n_D|
-  kFresnelError, ///< |stored fresnel - f_D|
-  kDetError,     ///< |det of the inverse a shader ends up with / its exact value - 1|
+  kSw1,                 ///< sliced Wasserstein distance: mean over directions of integral |F - G| dt, 0..2
+  kSw1Rel,              ///< SW1 / spread of the lobe
+  kForm,                ///< mean over random quads near the lobe of |integral f - integral g|
+  kLightS,              ///< RMS over random lights of n_D |integral f - integral g|: half-size 0.05
+  kLightM,              ///< half-size 0.25
+  kLightL,              ///< half-size 0.8
+  kTv,                  ///< total variation, 1/2 integral |f - g|, 0..1
+  kL3,                  ///< (integral |f - g|^3)^(1/3), sr^-2/3
+  kL3Cost,              ///< integral |rho cos - n_D f|^3, sr^-2: the objective of Heitz et al. 2016
+  kBelow,               ///< mass of f below the horizon, 0..1
+  kAlbedoError,         ///< |stored norm - n_D|
+  kFresnelError,        ///< |stored fresnel - f_D|
+  kDetError,            ///< |det of the inverse a shader ends up with / its exact value - 1|
   kInterpolationRatio,  ///< SW1 of the fetched matrix / SW1 of a direct fit at the same point
   kCount,
 };
@@ -44,8 +45,8 @@ inline constexpr std::size_t kMetricCount = static_cast<std::size_t>(Metric::kCo
 /// Name as in the output: "SW1", "SW1rel", "form", "light_s", ...
 std::string_view metricName(Metric metric);
 
-/// One value for each metric. `present` is false where a figure does not exist for this table or point (no norm
-/// channel; no direct fit asked for); a value that is present and not finite counts as a fault.
+/// One value for each metric. `present` is false where a figure does not exist for this table or point (no
+/// norm channel; no direct fit asked for); a value that is present and not finite counts as a fault.
 struct EntryMetrics {
   std::array<double, kMetricCount> value{};
   std::array<bool, kMetricCount> present{};
@@ -57,8 +58,8 @@ struct EntryMetrics {
   double get(Metric m) const { return value[static_cast<std::size_t>(m)]; }
 };
 
-/// Everything about a target that does not depend on the LTC it is compared with: samples, projections, lights
-/// and their true integrals. Made once for each point, used for every table.
+/// Everything about a target that does not depend on the LTC it is compared with: samples, projections,
+/// lights and their true integrals. Made once for each point, used for every table.
 class MetricTarget {
  public:
   MetricTarget(const Lobe& lobe, const MetricOptions& options);
@@ -97,6 +98,7 @@ class MetricTarget {
 
 /// Adds albedo, Fresnel and det error of a table entry. The matrix is taken as stored in float32 (`entry` in
 /// double), inverted in float as a shader does.
-void addEntryErrors(const TableEntry& entry, MatrixStorage stores, const LobeMoments& moments, EntryMetrics& out);
+void addEntryErrors(const TableEntry& entry, MatrixStorage stores, const LobeMoments& moments,
+                    EntryMetrics& out);
 
 }  // namespace ltcfit

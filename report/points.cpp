@@ -49,13 +49,15 @@ PointSet pointSetFromName(std::string_view name) {
   throw std::invalid_argument("unknown point set '" + std::string(name) + "' (nodes, off-grid or extreme)");
 }
 
-std::vector<Point> makePoints(const Table& table, PointSet set, std::size_t count, double minAlpha, std::uint64_t seed) {
+std::vector<Point> makePoints(const Table& table, PointSet set, std::size_t count, double minAlpha,
+                              std::uint64_t seed) {
   Random random(mixSeed(seed, 5));
   std::vector<Point> points;
   if (set != PointSet::kNodes) {
     // An interval that lies below minAlpha altogether gives up after a while instead of looping for ever.
     for (std::size_t tries = 0; points.size() < count && tries < 1000 * (count + 1); ++tries) {
-      const LobeParameters p = table.isIsotropic() ? randomIsotropic(set, random) : randomAnisotropic(set, random);
+      const LobeParameters p =
+          table.isIsotropic() ? randomIsotropic(set, random) : randomAnisotropic(set, random);
       if (p.alphaX >= minAlpha) points.push_back({p, std::nullopt});
     }
     return points;

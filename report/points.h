@@ -27,10 +27,11 @@ struct Point {
 /// Points of a set for a table.
 /// kNodes: `count` nodes drawn without repetition, all for 0 or more than there are; nodes with alpha_x below
 /// `minAlpha` are left out.
-/// kOffGrid, isotropic: sqrt(alpha) uniform in [0.05, 1], sqrt(1 - cos theta) in [0, 1]; anisotropic: alpha in
-/// [0.03, 1], lambda in [0.05, 1], theta and phi in [0, pi/2].
-/// kExtreme, isotropic: [0.01, 0.21] and [0.97, 1]; anisotropic: lambda in [0.02, 0.2], theta in [0.85, 1] pi/2,
-/// the others as before. `count` must be greater than 0 for both, alpha below minAlpha is left out.
-std::vector<Point> makePoints(const Table& table, PointSet set, std::size_t count, double minAlpha, std::uint64_t seed);
+/// kOffGrid, isotropic: sqrt(alpha) uniform in [0.05, 1], sqrt(1 - cos theta) in [0, 1]; anisotropic: alpha
+/// in [0.03, 1], lambda in [0.05, 1], theta and phi in [0, pi/2]. kExtreme, isotropic: [0.01, 0.21] and
+/// [0.97, 1]; anisotropic: lambda in [0.02, 0.2], theta in [0.85, 1] pi/2, the others as before. `count` must
+/// be greater than 0 for both, alpha below minAlpha is left out.
+std::vector<Point> makePoints(const Table& table, PointSet set, std::size_t count, double minAlpha,
+                              std::uint64_t seed);
 
 }  // namespace ltcfit

@@ -11,7 +11,8 @@ using Eigen::Vector3d;
 namespace {
 
 // Rectangle about centre + offset on the plane through `centre`, which it faces.
-Quad rectangle(const Vector3d& centre, double offsetX, double offsetY, double halfX, double halfY, double angle) {
+Quad rectangle(const Vector3d& centre, double offsetX, double offsetY, double halfX, double halfY,
+               double angle) {
   const Vector3d d = centre.normalized();
   const Vector3d helper = std::abs(d.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
   const Vector3d t1 = helper.cross(d).normalized();
@@ -19,7 +20,8 @@ Quad rectangle(const Vector3d& centre, double offsetX, double offsetY, double ha
   const Vector3d a = std::cos(angle) * t1 + std::sin(angle) * t2;
   const Vector3d b = d.cross(a);
   const Vector3d c = centre + offsetX * t1 + offsetY * t2;
-  return {c - halfX * a - halfY * b, c + halfX * a - halfY * b, c + halfX * a + halfY * b, c - halfX * a + halfY * b};
+  return {c - halfX * a - halfY * b, c + halfX * a - halfY * b, c + halfX * a + halfY * b,
+          c - halfX * a + halfY * b};
 }
 
 }  // namespace

@@ -16,8 +16,9 @@ using Quad = std::array<Eigen::Vector3d, 4>;
 /// half-sizes exp(0.7 N(0, 1)) 1.5 spread, angle uniform.
 Quad randomFormQuad(const LobeMoments& moments, Random& random);
 
-/// A light of the metrics light_s, light_m, light_l: direction of the centre uniform over the upper hemisphere, on
-/// the tangent plane at distance 1, half-sizes s a and s / a with a = exp(0.4 N(0, 1)), angle uniform.
+/// A light of the metrics light_s, light_m, light_l: direction of the centre uniform over the upper
+/// hemisphere, on the tangent plane at distance 1, half-sizes s a and s / a with a = exp(0.4 N(0, 1)), angle
+/// uniform.
 Quad randomLight(double size, Random& random);
 
 /// Sizes s of light_s, light_m and light_l.

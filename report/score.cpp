@@ -43,7 +43,8 @@ struct Target {
   MetricTarget metrics;
 };
 
-PointResult judge(const TableEntry& entry, const Table& table, const Target& target, const ScoreOptions& options) {
+PointResult judge(const TableEntry& entry, const Table& table, const Target& target,
+                  const ScoreOptions& options) {
   PointResult out;
   out.singular = !entry.invertible;
   out.singularFloat32 =
@@ -83,17 +84,20 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   std::size_t done = 0;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Target target(points[i].parameters, options.metrics);
+    // Lights, directions and samples of its own for each point: their noise then averages out over the table.
+    ScoreOptions own = options;
+    own.metrics.seed = mixSeed(options.metrics.seed, 1000 + i);
+    const Target target(points[i].parameters, own.metrics);
     for (std::size_t t = 0; t < tables.size(); ++t) {
       const Table& table = *tables[t];
       if (points[i].node && sameLayout(first, table)) {
         const std::vector<std::size_t> node = table.node(*points[i].node);
-        const LobeParameters own = table.parameters(node);
-        results[t][i] = sameParameters(own, points[i].parameters)
-                            ? judge(table.entry(node), table, target, options)
-                            : judge(table.entry(node), table, Target(own, options.metrics), options);
+        const LobeParameters fitted = table.parameters(node);
+        results[t][i] = sameParameters(fitted, points[i].parameters)
+                            ? judge(table.entry(node), table, target, own)
+                            : judge(table.entry(node), table, Target(fitted, own.metrics), own);
       } else {
-        results[t][i] = judge(table.fetch(points[i].parameters), table, target, options);
+        results[t][i] = judge(table.fetch(points[i].parameters), table, target, own);
       }
     }
     if (progress) {

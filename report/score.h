@@ -15,25 +15,27 @@ struct ScoreOptions {
   std::size_t count = 512;  ///< points; 0: all nodes
   double minAlpha = 0.0;    ///< leave out points with alpha below
   MetricOptions metrics;
-  bool interpolation = false;  ///< also fit each point directly (L3, isotropic tables) for the interpolation ratio
-  int threads = 0;             ///< 0: as many as OpenMP offers
+  bool interpolation =
+      false;        ///< also fit each point directly (L3, isotropic tables) for the interpolation ratio
+  int threads = 0;  ///< 0: as many as OpenMP offers
 };
 
 struct Score {
   std::array<Summary, kMetricCount> summary;
   std::array<bool, kMetricCount> present{};
   std::size_t points = 0;
-  std::size_t singular = 0;        ///< fetched matrices without an inverse: all metrics of these points are missing
-  std::size_t singularFloat32 = 0; ///< without a usable inverse in float32
+  std::size_t singular = 0;  ///< fetched matrices without an inverse: all metrics of these points are missing
+  std::size_t singularFloat32 = 0;  ///< without a usable inverse in float32
 };
 
 /// Called after each finished point, never from two threads at once.
 using ScoreProgress = std::function<void(std::size_t done, std::size_t total)>;
 
-/// Scores every table at the same points, those of the first one. At nodes a table with the same number of nodes
-/// on the same axes is judged node by node, each at the parameters it was fitted with (published tables clamp
-/// theta and alpha at other values than ours); any other table is fetched at the first one's parameters. All
-/// tables must be isotropic or all anisotropic. The result does not depend on the number of threads.
+/// Scores every table at the same points, those of the first one. At nodes a table with the same number of
+/// nodes on the same axes is judged node by node, each at the parameters it was fitted with (published tables
+/// clamp theta and alpha at other values than ours); any other table is fetched at the first one's
+/// parameters. All tables must be isotropic or all anisotropic. The result does not depend on the number of
+/// threads.
 std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const ScoreOptions& options,
                                const ScoreProgress& progress = {});
 

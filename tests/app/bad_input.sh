@@ -1,0 +1,88 @@
+# Bad input: exit 2, a message that names what is wrong, nothing written.
+. "$(dirname "$0")/common.sh" "$@"
+
+"$ltcfit" fit iso -q -o good.json --size 4x4 --samples 64 || fail "cannot make the good table"
+python3 - <<'PY'
+import json
+text = open('good.json').read()
+open('truncated.json', 'w').write(text[:len(text) // 2])
+open('empty.json', 'w').write('')
+open('text.json', 'w').write('hello\n')
+def change(name, f):
+    t = json.loads(text)
+    f(t)
+    open(name, 'w').write(json.dumps(t))
+change('count.json', lambda t: t['data'].pop())
+change('nan.json', lambda t: t['data'].__setitem__(3, float('nan')))
+change('null.json', lambda t: t['data'].__setitem__(3, None))
+change('axis.json', lambda t: t['axes'][0]['values'].__setitem__(1, 0.0))
+change('negative.json', lambda t: t['axes'][1]['values'].__setitem__(0, -0.1))
+change('version.json', lambda t: t.__setitem__('version', 9))
+PY
+ls > before
+
+# expect MESSAGE COMMAND...
+expect() {
+  local message=$1
+  shift
+  "$ltcfit" "$@" >stdout.txt 2>stderr.txt </dev/null
+  local rc=$?
+  [ $rc -eq 2 ] || fail "exit $rc, not 2: $*"
+  grep -q -- "$message" stderr.txt || fail "no '$message' in the message of: $* -- $(cat stderr.txt)"
+  [ "$(grep -c . stderr.txt)" -le 3 ] || fail "long message: $*"
+  rm -f stdout.txt stderr.txt
+}
+
+for f in truncated nan; do expect "$f.json: not valid JSON" score $f.json; done
+expect "empty.json: is empty" score empty.json
+expect "text.json: not a table" score text.json
+expect "missing.json: cannot read" score missing.json
+expect "count.json: data: 111 numbers" score count.json
+expect "null.json: data.3. is not a number" score null.json
+expect "axis.json: axis 'theta' values.1. does not increase" score axis.json
+expect "negative.json: axis 'alpha' values.0." score negative.json
+expect "version.json: version 9" score version.json
+expect ".: is a folder" score .
+expect "missing.json" score good.json --against missing.json
+expect "--count 0" score good.json --points off-grid --count 0
+expect "--points" score good.json --points everywhere
+expect "--min-alpha" score good.json --min-alpha -0.5
+expect "no point is left" score good.json --points extreme --min-alpha 0.9
+for f in truncated count nan null axis version missing; do expect "$f.json" export $f.json -o x.h; done
+expect "--format" export good.json -o x.png --format png
+expect "no/such" export good.json -o no/such/x.h
+expect "is a folder" export good.json -o .
+expect "--output is required" export good.json
+expect "--size '0x0x0'" fit iso -o x.json --size 0x0x0
+expect "--size '64'" fit iso -o x.json --size 64
+expect "--size '4x-4'" fit iso -o x.json --size 4x-4
+expect "--size 0x4" fit iso -o x.json --size 0x4
+expect "--size 1x4" fit iso -o x.json --size 1x4
+expect "--size 4x1" fit iso -o x.json --size 4x1
+expect "--size 4x99999" fit iso -o x.json --size 4x99999
+expect "--alpha-floor" fit iso -o x.json --alpha-floor -0.1
+expect "--alpha-floor" fit iso -o x.json --alpha-floor nan
+expect "--alpha-floor" fit iso -o x.json --alpha-floor 0.5
+expect "--alpha-floor" fit iso -o x.json --alpha-floor abc
+expect "--theta-max" fit iso -o x.json --theta-max 1.6
+expect "--theta-max" fit iso -o x.json --theta-max 0.5
+expect "--samples" fit iso -o x.json --samples 1
+expect "--samples" fit iso -o x.json --samples 99999999999
+expect "--family" fit iso -o x.json --family 5
+expect "--axes" fit iso -o x.json --axes 2018
+expect "--fitter" fit iso -o x.json --fitter magic
+expect "--seed" fit iso -o x.json --seed -1
+expect "--threads" fit iso -o x.json --threads -1
+expect "--unknown" fit iso -o x.json --unknown
+expect "--output is required" fit iso
+expect "no/such" fit iso -o no/such/x.json
+expect "no/such" fit iso -o x.json --report no/such/x.csv
+expect "subcommand is required" fit
+expect "subcommand is required"
+expect "unknown command .nonsense." nonsense x
+
+[ "$(ls)" = "$(cat before)" ] || fail "files were left: $(ls | diff before - | tr '\n' ' ')"
+"$ltcfit" --help | grep -q "Exit codes" || fail "--help"
+"$ltcfit" --version | grep -q "^ltcfit [0-9]" || fail "--version"
+for c in "fit iso" score export; do "$ltcfit" $c --help | grep -q -- "--" || fail "$c --help"; done
+finish
