@@ -65,8 +65,8 @@ class TableFit {
     }
     const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (std::size_t row = 0; row < nA_; ++row) {
-      const std::size_t a = nA_ - 1 - row;
+    for (std::size_t a = 0; a < nA_;
+         ++a) {  // sharp rows take longest: first, so that no thread ends alone with one
       for (std::size_t t = 1; t < nT_; ++t) fitFirst(t, a, {t - 1, a, WarmStart::kThetaNeighbour});
     }
     refitOutliers(threads);
