@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 
 namespace ltcfit::app {
 
@@ -12,6 +13,9 @@ inline constexpr int kExitFailure = 1;  ///< I/O or run-time failure
 inline constexpr int kExitBadInput =
     2;  ///< bad option, or a file that is missing, damaged or of the wrong kind
 inline constexpr int kExitQuality = 3;  ///< a quality gate failed: unusable entries
+
+/// Seeds go into JSON, whose readers keep 53 bits.
+inline constexpr std::int64_t kLargestSeed = std::int64_t{1} << 53;
 
 /// Set by the command that ran.
 struct CommandStatus {

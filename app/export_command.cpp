@@ -17,17 +17,21 @@ namespace {
 struct ExportArguments {
   std::string input;
   std::string output;
-  std::string format = "h";
+  std::string format;
   std::string prefix;
   bool quiet = false;
 };
 
 int exportTable(const ExportArguments& a) {
   checkWritable(a.output);
+  // by the name where nothing is said
+  const std::string extension = std::filesystem::path(a.output).extension().string();
+  const std::string format = !a.format.empty() ? a.format : extension == ".json" ? "json" : "h";
+  if (format == "json" && !a.prefix.empty()) throw InputError("--prefix is for --format h");
   const Table table = readTable(a.input);
   std::string bytes;
   try {
-    if (a.format == "json") {
+    if (format == "json") {
       bytes = tableToJson(table);
     } else {
       bytes = tableToCHeader(table,
@@ -50,9 +54,10 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
       ->required()
       ->type_name("FILE");
   command->add_option("-o,--output", a->output, "File to write")->required()->type_name("FILE");
-  command->add_option("--format", a->format, "h: C/C++ header, texture-ready; json: the table file")
-      ->check(CLI::IsMember({"h", "json"}))
-      ->capture_default_str();
+  command
+      ->add_option("--format", a->format,
+                   "h: C/C++ header, texture-ready; json: the table file [json for *.json, else h]")
+      ->check(CLI::IsMember({"h", "json"}));
   command->add_option("--prefix", a->prefix, "Start of the names in the header [the output's file name]")
       ->type_name("NAME");
   command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors");

@@ -160,13 +160,14 @@ void printJson(const FitArguments& a, const IsotropicFitResult& result, const Ti
       out["off_grid"][metricName(m)] = {{"mean", s.mean}, {"p99", s.p99}};
     }
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 int fitIso(const FitArguments& a) {
   const IsotropicFitOptions options = toOptions(a);
   checkWritable(a.output);
   if (!a.reportPath.empty()) checkWritable(a.reportPath);
+  if (a.reportPath == a.output) throw InputError(a.output + ": --output and --report name the same file");
 
   const auto wallStart = std::chrono::steady_clock::now();
   const double cpuStart = cpuSeconds();
@@ -185,7 +186,7 @@ int fitIso(const FitArguments& a) {
   if (result.unusable == 0) {
     const Table table(result.info, result.data);
     writeFileAtomically(a.output, tableToJson(table));
-    if (a.scorePoints > 0 && !a.quiet) {
+    if (a.scorePoints > 0 && (!a.quiet || a.json)) {
       ScoreOptions scoring;
       scoring.set = PointSet::kOffGrid;
       scoring.count = static_cast<std::size_t>(a.scorePoints);
@@ -222,7 +223,9 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
   CLI::App* const iso = fit->add_subcommand("iso", "Fit the isotropic table (theta, alpha)");
   auto a = std::make_shared<FitArguments>();
   iso->add_option("-o,--output", a->output, "Table file to write (JSON)")->required()->type_name("FILE.json");
-  iso->add_option("--size", a->size, "Nodes along theta and alpha, each 2..1024")
+  iso->add_option(
+         "--size", a->size,
+         "Nodes along theta and alpha, 2..1024; alpha up to 100 with the default floor, 317 with 1e-5")
       ->type_name("THETAxALPHA")
       ->capture_default_str();
   iso->add_option(
@@ -248,8 +251,8 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
                   "View angle of the last row, radians; up to pi/2, which needs no clamp (2017 table: 1.57)")
       ->type_name("RAD")
       ->default_str("pi/2");
-  iso->add_option("--seed", a->seed, "Seed of the sample points")
-      ->check(CLI::NonNegativeNumber)
+  iso->add_option("--seed", a->seed, "Seed of the sample points, 0..2^53")
+      ->check(CLI::Range(std::int64_t{0}, kLargestSeed))
       ->capture_default_str();
   iso->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the result")
       ->check(CLI::Range(0, 1024))

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,6 +17,11 @@ namespace {
 
 using namespace ltcfit;
 using namespace ltcfit::app;
+
+// Without exceptions, unlike fmt::print: stderr may be closed or full, and the exit code must still be right.
+void complain(const std::string& message) {
+  std::fputs(("ltcfit: " + message + "\n").c_str(), stderr);
+}
 
 int run(int argc, char** argv) {
   CLI::App app(
@@ -34,27 +41,33 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    const std::vector<std::string> extra = app.remaining(true);
-    if (error.get_name() == "RequiredError" && !extra.empty() && extra[0].front() != '-') {
-      fmt::print(stderr, "ltcfit: unknown command '{}'\nRun with --help for the commands.\n", extra[0]);
+    if (error.get_exit_code() == 0) {
+      app.exit(error);  // prints --help or --version
     } else {
-      fmt::print(stderr, "ltcfit: {}\nRun with --help for the options.\n", error.what());
+      const std::vector<std::string> extra = app.remaining(true);
+      const bool command = error.get_name() == "RequiredError" && !extra.empty();
+      const char* const kind = !command || extra[0].front() == '-' ? "unknown option" : "unknown command";
+      complain((command ? fmt::format("{} '{}'", kind, extra[0]) : std::string(error.what())) +
+               "; --help lists what there is");
+      return kExitBadInput;
     }
-    return kExitBadInput;
   } catch (const InputError& error) {
-    fmt::print(stderr, "ltcfit: {}\n", error.what());
+    complain(error.what());
     return kExitBadInput;
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "ltcfit: {}\n", error.what());
+    complain(error.what());
     return kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+    return kExitFailure;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "ltcfit: {}\n", error.what());
+    complain(error.what());
     return kExitFailure;
   }
   // what was printed must have arrived: a full disk behind a redirection is a failure
-  if (std::fflush(stdout) != 0) {
-    fmt::print(stderr, "ltcfit: cannot write to standard output\n");
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || !std::cout) {
+    complain("cannot write to standard output");
     return kExitFailure;
   }
   return status.exitCode;

@@ -18,6 +18,7 @@ struct ScoreArguments {
   std::string table;
   std::string against;
   std::string points = "nodes";
+  std::string storedAs = "file";
   std::int64_t count = 512;
   std::int64_t seed = 1;
   double minAlpha = 0.0;
@@ -27,6 +28,20 @@ struct ScoreArguments {
   bool quiet = false;
   bool json = false;
 };
+
+// The table as a shader would hold it: between nodes M and its inverse do not interpolate alike.
+Table readForScore(const ScoreArguments& a, const std::string& path) {
+  Table table = readTable(path);
+  if (a.storedAs == "file") return table;
+  try {
+    const bool inverse = a.storedAs == "Minv";
+    return ltcfit::storedAs(
+        table, inverse ? MatrixStorage::kMinv : MatrixStorage::kM,
+        inverse ? MatrixNormalization::kMiddleElement : MatrixNormalization::kThirdColumnUnit);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(path + ": --stored-as " + a.storedAs + ": " + error.what());
+  }
+}
 
 std::string describe(const Table& table) {
   std::string size;
@@ -87,10 +102,10 @@ nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
 }
 
 int scoreCommand(const ScoreArguments& a) {
-  const Table table = readTable(a.table);
+  const Table table = readForScore(a, a.table);
   std::vector<Table> others;
   if (!a.against.empty()) {
-    others.push_back(readTable(a.against));
+    others.push_back(readForScore(a, a.against));
     if (others[0].isIsotropic() != table.isIsotropic()) {
       throw InputError(a.against +
                        ": one table is isotropic, the other anisotropic: they have no points in common");
@@ -125,7 +140,7 @@ int scoreCommand(const ScoreArguments& a) {
                                {"quads", a.metrics.quads},     {"lights", a.metrics.lights}};
     out["tables"] = {toJson(a.table, scores[0])};
     if (scores.size() > 1) out["tables"].push_back(toJson(a.against, scores[1]));
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return kExitOk;
   }
   fmt::print("{} points{}, seed {}; {} samples, {} directions, {} quads, {} lights of each size\n\n",
@@ -160,14 +175,21 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
           "nodes: the table's own; off-grid: random, fetched as a shader does;\nextreme: sharp and grazing")
       ->check(CLI::IsMember({"nodes", "off-grid", "extreme"}))
       ->capture_default_str();
+  command
+      ->add_option("--stored-as", a->storedAs,
+                   "What is interpolated between nodes: file = what the file holds; Minv = the inverse over "
+                   "its middle\n"
+                   "element, as in the exported header and the shaders of engines; M = the matrix")
+      ->check(CLI::IsMember({"file", "M", "Minv"}))
+      ->capture_default_str();
   command->add_option("--count", a->count, "Number of points; 0 = all nodes")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{100000000}))
       ->capture_default_str();
   command->add_option("--min-alpha", a->minAlpha, "Leave out points with a smaller GGX alpha; 0..1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--seed", a->seed, "Seed of points, samples and lights")
-      ->check(CLI::NonNegativeNumber)
+  command->add_option("--seed", a->seed, "Seed of points, samples and lights, 0..2^53")
+      ->check(CLI::Range(std::int64_t{0}, kLargestSeed))
       ->capture_default_str();
   command->add_option("--samples", a->metrics.samples, "Directions of table and lobe for SW1, TV, L3")
       ->check(CLI::Range(16, 1 << 22))

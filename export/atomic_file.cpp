@@ -24,63 +24,89 @@ fs::path folderOf(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-// A descriptor that closes itself, and a temporary name that goes away unless it was renamed.
-class PendingFile {
+void writeAll(int fd, std::string_view bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(path, "cannot write");
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+// A descriptor that closes itself.
+class Descriptor {
  public:
-  explicit PendingFile(std::string target) : target_(std::move(target)) {
-    name_ = target_ + ".tmp-" + std::to_string(::getpid());
-    fd_ = ::open(folderOf(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    if (fd_ >= 0) return;
-    fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (fd_ < 0) fail(target_, "cannot write");
-    named_ = true;
-  }
-  ~PendingFile() {
-    if (fd_ >= 0) ::close(fd_);
-    if (named_) ::unlink(name_.c_str());
-  }
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
 
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail(target_, "cannot write");
-      bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
-  }
-
-  void commit() {
-    if (::fsync(fd_) != 0) fail(target_, "cannot write");
-    if (!named_) {
-      const std::string self = "/proc/self/fd/" + std::to_string(fd_);
-      ::unlink(name_.c_str());  // left by a killed process of the same number
-      if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
-        fail(target_, "cannot write");
-      }
-      named_ = true;
-    }
+  int get() const { return fd_; }
+  int close() {
     const int fd = fd_;
     fd_ = -1;
-    if (::close(fd) != 0) fail(target_, "cannot write");
-    if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "cannot write");
-    named_ = false;
+    return fd >= 0 ? ::close(fd) : 0;
   }
 
  private:
-  std::string target_;
-  std::string name_;
-  int fd_ = -1;
-  bool named_ = false;
+  int fd_;
 };
+
+// Bytes to a device or pipe: there is nothing to rename.
+void writeThrough(const std::string& path, std::string_view bytes) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.get() < 0) fail(path, "cannot write");
+  writeAll(file.get(), bytes, path);
+  if (file.close() != 0) fail(path, "cannot write");
+}
+
+// Gives the complete, unnamed file a name; false where that is not possible (no /proc).
+bool linkUnnamed(int fd, const std::string& name) {
+  const std::string self = "/proc/self/fd/" + std::to_string(fd);
+  ::unlink(name.c_str());  // left by a killed process of the same number
+  return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
 
 }  // namespace
 
 void writeFileAtomically(const std::string& path, std::string_view bytes) {
-  PendingFile file(path);
-  file.write(bytes);
-  file.commit();
+  std::error_code error;
+  // the file that a link points to is replaced, not the link
+  std::string target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error).string() : path;
+  if (error) target = path;
+  struct stat old {};
+  const bool exists = ::stat(target.c_str(), &old) == 0;
+  if (exists && !S_ISREG(old.st_mode) && !S_ISDIR(old.st_mode)) return writeThrough(target, bytes);
+
+  const fs::path folder = folderOf(target);
+  const std::string temporary = (folder / (".ltcfit-" + std::to_string(::getpid()))).string();
+  const auto finish = [&](Descriptor& file) {
+    writeAll(file.get(), bytes, target);
+    if (exists && ::fchmod(file.get(), old.st_mode & 07777) != 0) fail(target, "cannot write");
+    if (::fsync(file.get()) != 0) fail(target, "cannot write");
+  };
+  const auto rename = [&] {
+    if (::rename(temporary.c_str(), target.c_str()) == 0) return;
+    const int reason = errno;
+    ::unlink(temporary.c_str());
+    errno = reason;
+    fail(target, "cannot write");
+  };
+
+  Descriptor unnamed(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+  if (unnamed.get() >= 0) {
+    finish(unnamed);
+    if (linkUnnamed(unnamed.get(), temporary)) return rename();
+  }
+  Descriptor named(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (named.get() < 0) fail(target, "cannot write");
+  try {
+    finish(named);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  rename();
 }
 
 void checkWritable(const std::string& path) {

@@ -13,7 +13,7 @@ namespace {
 std::string identifier(const std::string& text) {
   std::string out;
   for (char c : text) out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  if (out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0) out.insert(0, 1, '_');
+  if (out.empty() || std::isalpha(static_cast<unsigned char>(out[0])) == 0) out.insert(0, "ltc_");
   return out;
 }
 
@@ -130,24 +130,18 @@ std::string tableToCHeader(const Table& table, const std::string& prefix) {
   const std::string guard = upper(name) + "_H";
   const std::size_t n = table.nodeCount();
 
+  const Table stored = storedAs(table, MatrixStorage::kMinv, MatrixNormalization::kMiddleElement);
+  const std::size_t channels = stored.channelCount();  // m00, m02, m11, m20, m22, then norm and fresnel
   std::string matrices;
   std::string amplitudes;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::vector<std::size_t> node = table.node(i);
-    const TableEntry entry = table.entry(node);
-    if (!entry.invertible) {
-      throw std::invalid_argument(fmt::format("node (theta {}, alpha {}) has no inverse", node[0], node[1]));
-    }
-    const Eigen::Matrix3d t = normalized(entry.mInv, MatrixNormalization::kMiddleElement);
+    const float* const v = stored.data().data() + i * channels;
     const char* const comma = i + 1 < n ? "," : "";
-    // rounded to float32 first: nine digits of that read back to the same number
-    const Eigen::Matrix3f f = t.cast<float>();
-    fmt::format_to(std::back_inserter(matrices), "  {{{:.8e}f, {:.8e}f, {:.8e}f, {:.8e}f}}{}\n", f(0, 0),
-                   f(2, 0), f(0, 2), f(2, 2), comma);
-    if (amplitude) {
-      fmt::format_to(std::back_inserter(amplitudes), "  {{{:.8e}f, {:.8e}f}}{}\n",
-                     static_cast<float>(*entry.norm), static_cast<float>(*entry.fresnel), comma);
-    }
+    // nine digits of a float32 read back to the same number
+    fmt::format_to(std::back_inserter(matrices), "  {{{:.8e}f, {:.8e}f, {:.8e}f, {:.8e}f}}{}\n", v[0], v[3],
+                   v[1], v[4], comma);
+    if (amplitude)
+      fmt::format_to(std::back_inserter(amplitudes), "  {{{:.8e}f, {:.8e}f}}{}\n", v[5], v[6], comma);
   }
 
   std::string out = comment(table, name, amplitude);

@@ -127,8 +127,9 @@ Table readTable(const Json& json) {
   if (file.text("format") != kFormat) throw InputError("format is not \"" + std::string(kFormat) + "\"");
   const Json& version = file.get("version");
   if (!version.is_number_integer() || version != kVersion) {
-    throw InputError(
-        fmt::format("version {} is not known; this program reads version {}", version.dump(), kVersion));
+    throw InputError(fmt::format("version {} is not known; this program reads version {}",
+                                 version.is_number() ? version.dump() : std::string("of another type"),
+                                 kVersion));
   }
   TableInfo info;
   info.brdf = file.text("brdf");

@@ -35,7 +35,8 @@ Table readTable(const std::string& path) {
         isNpy(secondBytes) ? parseNpy(secondBytes, second) : parseDds(secondBytes, second);
     return tableFrom2017(array, &secondArray, path);
   }
-  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  // a byte order mark, as editors of one vendor leave it, is not part of the text
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   if (start == std::string::npos) throw InputError(path + ": is empty");
   if (bytes[start] == '{') return tableFromJson(bytes, path);
   throw InputError(path + ": not a table: neither ltcfit's JSON, .npy nor DDS");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "fit/lobe_shape.h"
 #include "ggx/ggx_lobe.h"
@@ -21,6 +22,13 @@ constexpr std::size_t kLargestAxis = 1024;
 // First simplex of a second try against that of the first: it should leave the valley that the first one
 // chose.
 constexpr double kRefitEdgeFactor = 4.0;
+
+// A number for a message, without trailing zeros or rounding to 0.
+std::string plain(double v) {
+  std::ostringstream out;
+  out << v;
+  return out.str();
+}
 
 AxisMap angleMap(IsotropicAxes axes) {
   return axes == IsotropicAxes::k2017 ? AxisMap::kSqrtOneMinusCos : AxisMap::kLinear;
@@ -238,7 +246,7 @@ bool IsotropicFitOptions::isValid(std::string* error) const {
   }
   const double secondNode = 1.0 / static_cast<double>(alphaNodes - 1);
   if (alphaFloor >= secondNode * secondNode) {
-    *error = "--alpha-floor " + std::to_string(alphaFloor) + ": with " + std::to_string(alphaNodes) +
+    *error = "--alpha-floor " + plain(alphaFloor) + ": with " + std::to_string(alphaNodes) +
              " alpha nodes it must be below the second one's alpha, " +
              std::to_string(secondNode * secondNode);
     return false;

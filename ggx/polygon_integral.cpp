@@ -45,7 +45,7 @@ PolygonIntegral integrateLobeOverPolygon(const Lobe& lobe, std::span<const Vecto
   internal::Cubature<EvalIntegrand> cubature(lobe, integrand, options.cellTolerance);
   // The plane of incidence, in which the ridge of an isotropic lobe at grazing view lies: cells with an edge
   // along it can follow the ridge.
-  const Vector3d wo = lobe.wo();
+  const Vector3d& wo = lobe.wo();
   const double length = std::hypot(wo.x(), wo.y());
   const Vector3d side = length > 0.0 ? Vector3d(-wo.y() / length, wo.x() / length, 0.0) : Vector3d::UnitY();
   // A fan from the first vertex; for a polygon that is not convex the signed triangles cancel outside of it.

@@ -52,14 +52,24 @@ void validateAxis(const Axis& axis, const AxisRange& range) {
     }
     if (i > 0 && !(v[i] > v[i - 1])) fail(at + " does not increase");
   }
+  if (axis.unit != (range.high > 1.0 ? "rad" : "1"))
+    fail(where + ": unit '" + axis.unit + "' is not " + (range.high > 1.0 ? "rad" : "1"));
   if (axis.map == AxisMap::kNone) return;
   if (!std::isfinite(axis.low) || !std::isfinite(axis.high) || !(axis.low < axis.high) ||
       axis.low < range.low || axis.high > range.high + kRangeSlack) {
     fail(where + " range: need two increasing numbers inside [" + std::to_string(range.low) + ", " +
          std::to_string(range.high) + "]");
   }
-  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
-    if (std::abs(axis.texelFromValue(v[i]) - static_cast<double>(i)) > kTexelSlack) {
+  const bool angle = range.high > 1.0;
+  if ((axis.map == AxisMap::kSqrt && angle) || (axis.map == AxisMap::kSqrtOneMinusCos && !angle)) {
+    fail(where + " cannot have the map '" + std::string(axisMapName(axis.map)) + "'");
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    // only the first and last node may be clamped, and not as far as the next texel
+    const bool end = i == 0 || i + 1 == v.size();
+    const double slack = end ? 1.0 - kTexelSlack : kTexelSlack;
+    if (v[i] < axis.low - kRangeSlack || v[i] > axis.high + kRangeSlack ||
+        std::abs(axis.texelFromValue(v[i]) - static_cast<double>(i)) > slack) {
       fail(where + " values[" + std::to_string(i) + "] is not where its map '" +
            std::string(axisMapName(axis.map)) + "' puts it");
     }
@@ -204,6 +214,47 @@ TableEntry Table::entry(std::span<const std::size_t> node) const {
   std::vector<double> channels(channelCount());
   for (std::size_t c = 0; c < channels.size(); ++c) channels[c] = static_cast<double>(data_[offset + c]);
   return unpack(channels.data());
+}
+
+Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization normalization) {
+  TableInfo info = table.info();
+  info.stores = stores;
+  info.normalization = normalization;
+  const auto has = [&](std::string_view name) {
+    return std::find(table.info().channels.begin(), table.info().channels.end(), name) !=
+           table.info().channels.end();
+  };
+  const bool planar = !has("m01") && !has("m10") && !has("m12") && !has("m21");
+  info.channels = {"m00", "m02", "m11", "m20", "m22"};
+  if (!planar) info.channels = {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22"};
+  const std::size_t matrixChannels = info.channels.size();
+  if (has("norm")) info.channels.push_back("norm");
+  if (has("fresnel")) info.channels.push_back("fresnel");
+
+  std::vector<float> data;
+  data.reserve(table.nodeCount() * info.channels.size());
+  for (std::size_t i = 0; i < table.nodeCount(); ++i) {
+    const TableEntry entry = table.entry(table.node(i));
+    const auto refuse = [&](const char* what) { fail("node " + std::to_string(i) + " " + what); };
+    if (!entry.invertible) refuse("has no inverse");
+    Eigen::Matrix3d m = stores == MatrixStorage::kM ? entry.m : entry.mInv;
+    if (m(1, 1) < 0.0) {
+      // M diag(1, -1, 1) is the same lobe: column 1 of M, row 1 of its inverse
+      if (stores == MatrixStorage::kM) {
+        m.col(1) *= -1.0;
+      } else {
+        m.row(1) *= -1.0;
+      }
+    }
+    const Eigen::Matrix3f f = normalized(m, normalization).cast<float>();
+    if (!f.allFinite()) refuse("has an inverse that does not fit float32");
+    for (std::size_t c = 0; c < matrixChannels; ++c) {
+      data.push_back(f(info.channels[c][1] - '0', info.channels[c][2] - '0'));
+    }
+    if (entry.norm) data.push_back(static_cast<float>(*entry.norm));
+    if (entry.fresnel) data.push_back(static_cast<float>(*entry.fresnel));
+  }
+  return Table(std::move(info), std::move(data));
 }
 
 TableEntry Table::fetch(const LobeParameters& p) const {

@@ -29,7 +29,8 @@ std::string_view matrixNormalizationName(MatrixNormalization normalization);
 MatrixStorage matrixStorageFromName(std::string_view name);
 MatrixNormalization matrixNormalizationFromName(std::string_view name);
 
-/// `m` scaled as told; the lobe does not change. The element divided by must not be 0 (caller's duty).
+/// `m` scaled as told. The element divided by must not be 0; the lobe stays the same where it is positive,
+/// and is mirrored through the origin where it is negative (caller's duty: see storedAs).
 Eigen::Matrix3d normalized(const Eigen::Matrix3d& m, MatrixNormalization normalization);
 
 /// What one lobe depends on: roughness along x and y (alpha, not its root), view angles in radians.
@@ -112,5 +113,12 @@ class Table {
   int normChannel_ = -1;
   int fresnelChannel_ = -1;
 };
+
+/// The same lobes stored otherwise: M or its inverse, scaled as told, rounded to float32; norm and Fresnel as
+/// they are. This is how a table is read by shaders that interpolate the inverse (the layout of 2017):
+/// between nodes the two differ. Channels: m00, m02, m11, m20, m22 where all other entries are 0, else all
+/// nine. A matrix whose element (1, 1) is negative is replaced by the equivalent one with a flip of y. Throws
+/// std::invalid_argument for a node without an inverse, or with one that does not fit float32.
+Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization normalization);
 
 }  // namespace ltcfit

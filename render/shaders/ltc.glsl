@@ -5,6 +5,11 @@
 //   amplitude  RG32F or RG16F: (norm, fresnel)
 // both with linear filtering, clamped to the edge. Roughness is the square root of GGX's alpha.
 
+#ifdef GL_ES
+precision highp float;
+precision highp sampler2D;
+#endif
+
 struct LtcEntry {
   mat3 inverse;   // takes directions of the frame below to the clamped cosine
   float norm;     // directional albedo for F = 1

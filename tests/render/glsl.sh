@@ -6,7 +6,6 @@ trap 'rm -rf "$work"' EXIT
 for version in "330 core" "300 es"; do
   {
     echo "#version $version"
-    [ "$version" = "300 es" ] && echo "precision highp float;"
     cat "$shaders/ltc.glsl"
     cat <<'GLSL'
 uniform sampler2D matrixTable;

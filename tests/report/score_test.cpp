@@ -93,8 +93,8 @@ TEST(Score, ThePublishedTableHasItsPublishedFigures) {
   options.set = PointSet::kOffGrid;
   options.count = 1000;
   const Score s = scoreTables({&table}, options)[0];
-  // Measured by another program before this one existed, off-grid and at nodes. Both are spread alike over the
-  // domain, so that their difference is the noise of those means: a few grazing points weigh most.
+  // Measured by another program before this one existed, off-grid and at nodes. Both are spread alike over
+  // the domain, so that their difference is the noise of those means: a few grazing points weigh most.
   const auto expectBetween = [&](Metric m, double low, double high) {
     EXPECT_GT(of(s, m).mean, 0.9 * low) << metricName(m);
     EXPECT_LT(of(s, m).mean, 1.1 * high) << metricName(m);
