@@ -28,6 +28,7 @@ struct FitArguments {
   int samples = EntryFitOptions{}.samples;
   double alphaFloor = IsotropicFitOptions{}.alphaFloor;
   double thetaMax = IsotropicFitOptions{}.thetaMax;
+  int maxEvaluations = NelderMeadOptions{}.maxEvaluations;
   int threads = 0;
   std::int64_t seed = 1;
   int scorePoints = 64;
@@ -59,6 +60,7 @@ IsotropicFitOptions toOptions(const FitArguments& a) {
   o.alphaFloor = a.alphaFloor;
   o.thetaMax = a.thetaMax;
   o.threads = a.threads;
+  o.entry.nelderMead.maxEvaluations = a.maxEvaluations;
   o.entry.family = a.family == "3" ? IsotropicFamily::kMeanFrame3 : IsotropicFamily::kPlane4;
   o.entry.samples = a.samples;
   o.entry.seed = static_cast<std::uint64_t>(a.seed);
@@ -76,6 +78,9 @@ Provenance makeProvenance(const FitArguments& a) {
       fmt::format("ltcfit fit iso --size {} --axes {} --fitter {} --family {} --samples {} --alpha-floor {}",
                   a.size, a.axes, a.fitter, a.family, a.samples, a.alphaFloor);
   if (a.thetaMax != IsotropicFitOptions{}.thetaMax) p.command += fmt::format(" --theta-max {}", a.thetaMax);
+  if (a.maxEvaluations != NelderMeadOptions{}.maxEvaluations) {
+    p.command += fmt::format(" --max-evaluations {}", a.maxEvaluations);
+  }
   p.command += fmt::format(" --seed {}", a.seed);
   p.seed = a.seed;
   p.options = {{"size", a.size},
@@ -84,7 +89,8 @@ Provenance makeProvenance(const FitArguments& a) {
                {"family", a.family},
                {"samples", std::int64_t{a.samples}},
                {"alpha_floor", a.alphaFloor},
-               {"theta_max", a.thetaMax}};
+               {"theta_max", a.thetaMax},
+               {"max_evaluations", std::int64_t{a.maxEvaluations}}};
   return p;
 }
 
@@ -243,6 +249,10 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
       ->capture_default_str();
   iso->add_option("--samples", a->samples,
                   "Directions of the lobe, and as many of the LTC, for the error; 16..4194304")
+      ->capture_default_str();
+  iso->add_option("--max-evaluations", a->maxEvaluations,
+                  "Evaluations of the error for one try at one entry, 1..1000000")
+      ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   iso->add_option("--alpha-floor", a->alphaFloor,
                   "GGX alpha of the nodes at sqrt(alpha) = 0; 1e-5 to below the second node's")

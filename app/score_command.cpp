@@ -153,6 +153,13 @@ int scoreCommand(const ScoreArguments& a) {
     fmt::print("\n{} ({})\n", a.against, describe(others[0]));
     printSummaries(scores[1]);
     printRatios(scores[0], scores[1]);
+    if (scores[1].otherParameters > 0) {
+      fmt::print(
+          "{} nodes of the second table were fitted at another theta or alpha (its clamps): there L3 and "
+          "L3cost, which\n"
+          "grow like alpha^-4/3 and alpha^-4, do not compare\n",
+          scores[1].otherParameters);
+    }
   }
   return kExitOk;
 }

@@ -37,8 +37,7 @@ std::string commentSafe(std::string text) {
 
 // How a shader gets the texture coordinate of an axis, in the words of a shader.
 std::string axisFormula(const Axis& axis) {
-  const std::string v =
-      axis.name == "theta" && axis.map == AxisMap::kSqrtOneMinusCos ? "cos theta = N.V" : axis.name;
+  const std::string& v = axis.name;
   const bool full = axis.low == 0.0;
   switch (axis.map) {
     case AxisMap::kSqrt:

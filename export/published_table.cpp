@@ -168,6 +168,7 @@ Table tableFrom2017(const FloatArray& first, const FloatArray* second, const std
   if (second != nullptr) info.channels.insert(info.channels.end(), {"norm", "fresnel"});
   info.alphaFloor = kFloor2017;
   info.provenance.tool = "published 2017 table";
+  info.provenance.options = {{"family", std::string("3")}};  // what its authors' code fits
   std::vector<float> data;
   data.reserve(texels * info.channels.size());
   for (std::size_t i = 0; i < texels; ++i) {

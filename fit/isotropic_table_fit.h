@@ -66,9 +66,9 @@ using FitProgress = std::function<void(std::size_t done, std::size_t total)>;
 /// threads. `options` must be valid.
 IsotropicFitResult fitIsotropicTable(const IsotropicFitOptions& options, const FitProgress& progress = {});
 
-/// How much worse than its neighbours an entry may be before it is tried again. In the default table (and for
-/// both families) sound entries stay below 1.04; the one local minimum seen, family 3 at theta = 90 degrees
-/// and alpha = 1e-5, was at 1.23 (ltcfit fit iso --report).
+/// How much worse than its neighbours (their upper median) an entry may be before it is tried again. In the
+/// default table, and with family 3, all entries above kGoodEnough end below 1.04; the local minima seen
+/// began at 1.2 and more (ltcfit fit iso --report).
 inline constexpr double kNeighbourFactor = 1.15;
 /// A relative L3 error below which no entry is tried again: the neighbours' then differ by sampling noise.
 inline constexpr double kGoodEnough = 2e-3;

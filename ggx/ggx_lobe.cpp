@@ -111,6 +111,18 @@ void GgxLobe::evalBatch(std::span<const double> x, std::span<const double> y, st
   }
 }
 
+StretchedNode GgxLobe::atStretched(const Vector3d& s) const {
+  const Vector3d h(alpha_.x * s.x(), alpha_.y * s.y(), s.z());
+  const double length = h.norm();
+  const Vector3d wm = h / length;
+  const double cosine = wo().dot(wm);
+  const Vector3d wi = (2.0 * cosine * wm - wo()).normalized();
+  if (cosine <= 0.0 || wi.z() <= 0.0) return {wi, 0.0};
+  // eval / D * 4 wo.wm * s.z / (pi wm.z), with s.z / wm.z = |h|
+  const double masked = stretchedWo_ * wi.z() + stretchedLength(wi, alpha_) * wo().z();
+  return {wi, 2.0 * std::numbers::inv_pi * length * cosine * wi.z() / masked};
+}
+
 Eigen::Vector4d GgxLobe::stretched(const Vector3d& wi) const {
   const Vector3d h = wo() + wi;
   const Vector3d s(h.x() / alpha_.x, h.y() / alpha_.y, h.z());

@@ -34,6 +34,12 @@ class GgxLobe final : public Lobe {
   /// G1(wo), which at grazing view falls to 0 in a thin layer at the horizon.
   Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const override;
 
+  bool isIsotropic() const override { return alpha_.x == alpha_.y; }
+
+  /// s is the half vector in the configuration of roughness 1: D wm.z dwm = s.z ds / pi, and dwi = 4 wo.wm
+  /// dwm.
+  StretchedNode atStretched(const Eigen::Vector3d& s) const override;
+
   /// Probability to keep a reflected visible normal so that the kept ones follow eval exactly:
   /// G2 / G1(wo) = (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), 0 at and below the horizon.
   /// KT et al. 2022 print (1 + Lambda(wi)) in the numerator, in section 3.1 and Algorithm 1; that does not

@@ -13,6 +13,12 @@ struct LobeSample {
   double weight;       ///< eval(wi) / pdf(wi), finite
 };
 
+/// A light direction with the measure that it stands for, see Lobe::atStretched.
+struct StretchedNode {
+  Eigen::Vector3d wi;
+  double measure;  ///< eval(wi) dwi / ds, >= 0
+};
+
 /// The cosine-weighted BRDF rho(wo, wi) cos theta_i of one view direction, without Fresnel (F = 1): the
 /// target of every fit. Its integral over wi is the directional albedo, see moments.h.
 class Lobe {
@@ -36,10 +42,18 @@ class Lobe {
   virtual void evalBatch(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                          std::span<double> eval, std::span<double> pdf) const;
 
+  /// Whether the lobe is mirror-symmetric about the plane of incidence, so that its ridges lie in it.
+  virtual bool isIsotropic() const = 0;
+
   /// Four numbers of order 1 for each wi that vary smoothly where the lobe is smooth and fast where it is
   /// sharp: in these coordinates it has no feature narrower than about 1, however small alpha. Guides
   /// quadrature, whose cells are split until they are small in them. NaN where undefined.
   virtual Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const = 0;
+
+  /// The lobe in coordinates where it fills the upper hemisphere: for any h,
+  ///   integral of eval(wi) h(wi) dwi = integral over unit s with s.z > 0 of measure(s) h(wi(s)) ds.
+  /// The measure is bounded and smooth but for kinks (horizon, masking), however small alpha.
+  virtual StretchedNode atStretched(const Eigen::Vector3d& s) const = 0;
 
  protected:
   explicit Lobe(Eigen::Vector3d wo) : wo_(std::move(wo)) {}

@@ -11,8 +11,8 @@ namespace ltcfit {
 /// frac(shift + (i + 1) (1/rho, 1/rho^2)), rho^3 = rho + 1. Any prefix of it is evenly spread.
 class R2Sequence {
  public:
-  /// `seed` sets the start of the sequence (a Cranley-Patterson shift): two seeds give point sets that share
-  /// no structure, so that one can judge what was fitted with the other.
+  /// `seed` sets the start of the sequence (a Cranley-Patterson shift): two seeds give the same
+  /// lattice at another place, so that their errors differ.
   explicit R2Sequence(std::uint64_t seed);
 
   /// Point `index` of the sequence, both coordinates in [0, 1).

@@ -23,7 +23,7 @@ Vector3d edgeIntegral(const Vector3d& a, const Vector3d& b) {
   return c * (std::atan2(s, d) / s);
 }
 
-// The part of edge a-b above the horizon, and where it crosses it.
+// Where the edge a-b crosses the horizon.
 Vector3d horizonPoint(const Vector3d& a, const Vector3d& b) {
   Vector3d p = (a * b.z() - b * a.z()) / (b.z() - a.z());
   p.z() = 0.0;

@@ -10,7 +10,7 @@ namespace ltcfit {
 
 /// Form factor of a polygon at the origin with normal +z: the integral of max(0, w.z) / pi over the
 /// directions it covers, in [-1, 1] (Heitz et al. 2016, eq. 11; Heitz 2017). `vertices` are points (any
-/// length > 0, all edges seen under less than pi), planar or a spherical polygon, convex or not; closed from
+/// length > 0, all edges seen under less than pi), in one plane, convex or not; closed from
 /// last to first. Positive where they run counterclockwise seen from above, from +z down to the origin; a
 /// light that emits from one side only takes max(0, value), a two-sided one |value|. Exact clipping at the
 /// horizon. Fewer than three vertices give 0. An edge that passes through the origin contributes nothing.
@@ -27,7 +27,7 @@ Eigen::Vector3d vectorFormFactor(std::span<const Eigen::Vector3d> vertices);
 
 /// The shortcut that engines take for horizon clipping: form factor of the sphere with vector form factor F,
 /// by the fit max(0, (|F|^2 + F.z) / (|F| + 1)) (Hill and Heitz 2016). Not exact: for polygons through the
-/// horizon it is off by several percent of the full range.
+/// horizon it is off by up to 0.14.
 double proxySphereFormFactor(const Eigen::Vector3d& vectorFormFactor);
 
 }  // namespace ltcfit

@@ -5,13 +5,18 @@
 #include <numbers>
 
 namespace ltcfit {
+namespace {
+
+// Below this tangent five terms of atan's series are exact to a double.
+constexpr double kSmallArc = 0.03;
+
+}  // namespace
 
 double sphereFormFactor(double cosOmega, double sinSigma) {
   return sinSigma * sinSigma * cosOmega;
 }
 
 double sphereFormFactorClipped(double cosOmega, double sinSigma) {
-  const double sinOmega = std::sqrt(std::max(0.0, 1.0 - cosOmega * cosOmega));
   if (cosOmega >= sinSigma) return sphereFormFactor(cosOmega, sinSigma);
   if (cosOmega <= -sinSigma) return 0.0;
   // The cap crosses the horizon. By Stokes, pi E = 1/2 contour integral of (w x dw).z over the boundary of
@@ -20,12 +25,18 @@ double sphereFormFactorClipped(double cosOmega, double sinSigma) {
   //   t0 sin^2 s cos o - cos s sin s sin o sin t0;
   // the horizon between its ends, |phi| < phi0 with cos phi0 = cos s / sin o, contributes phi0.
   const double cosSigma = std::sqrt(std::max(0.0, 1.0 - sinSigma * sinSigma));
-  const double cosT0 = std::clamp(-cosSigma * cosOmega / (sinSigma * sinOmega), -1.0, 1.0);
-  const double t0 = std::acos(cosT0);
-  const double sinT0 = std::sqrt(1.0 - cosT0 * cosT0);
-  const double phi0 = std::acos(std::clamp(cosSigma / sinOmega, -1.0, 1.0));
-  const double area = t0 * sinSigma * sinSigma * cosOmega - cosSigma * sinSigma * sinOmega * sinT0 + phi0;
-  return std::max(0.0, area) * std::numbers::inv_pi;
+  // With r = sqrt(sin^2 s - cos^2 o): sin t0 = r / (sin s sin o), tan phi0 = r / cos s. The last two terms
+  // cancel to third order for small spheres, where their difference is taken from its series.
+  const double r = std::sqrt(std::max(0.0, sinSigma * sinSigma - cosOmega * cosOmega));
+  const double t0 = std::atan2(r, -cosSigma * cosOmega);
+  const double q = r / cosSigma;
+  const double q2 = q * q;
+  const double arcs =
+      q < kSmallArc
+          ? r / cosSigma * (sinSigma * sinSigma - q2 * (1.0 / 3 - q2 * (1.0 / 5 - q2 * (1.0 / 7 - q2 / 9))))
+          : std::atan2(r, cosSigma) - cosSigma * r;
+  const double area = t0 * sinSigma * sinSigma * cosOmega + arcs;
+  return std::clamp(area * std::numbers::inv_pi, 0.0, sinSigma * sinSigma);
 }
 
 }  // namespace ltcfit

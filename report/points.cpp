@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 

@@ -16,6 +16,7 @@ struct PointResult {
   EntryMetrics metrics;
   bool singular = false;
   bool singularFloat32 = false;
+  bool otherParameters = false;
 };
 
 bool sameLayout(const Table& a, const Table& b) {
@@ -58,6 +59,11 @@ PointResult judge(const TableEntry& entry, const Table& table, const Target& tar
   addEntryErrors(entry, table.info().stores, target.metrics.moments(), out.metrics);
   if (options.interpolation && table.isIsotropic()) {
     EntryFitOptions fit;
+    for (const auto& [key, value] : table.info().provenance.options) {
+      // the direct fit is of the table's own kind: its error at a node is then no cost of interpolation
+      if (key == "family" && value == Provenance::Value(std::string("3")))
+        fit.family = IsotropicFamily::kMeanFrame3;
+    }
     fit.seed = mixSeed(options.metrics.seed, 21);
     const EntryFit direct = fitIsotropicEntry(target.lobe, target.metrics.moments(), entry.m, fit);
     out.metrics.set(Metric::kInterpolationRatio,
@@ -93,9 +99,10 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
       if (points[i].node && sameLayout(first, table)) {
         const std::vector<std::size_t> node = table.node(*points[i].node);
         const LobeParameters fitted = table.parameters(node);
-        results[t][i] = sameParameters(fitted, points[i].parameters)
-                            ? judge(table.entry(node), table, target, own)
-                            : judge(table.entry(node), table, Target(fitted, own.metrics), own);
+        const bool same = sameParameters(fitted, points[i].parameters);
+        results[t][i] = same ? judge(table.entry(node), table, target, own)
+                             : judge(table.entry(node), table, Target(fitted, own.metrics), own);
+        results[t][i].otherParameters = !same;
       } else {
         results[t][i] = judge(table.fetch(points[i].parameters), table, target, own);
       }
@@ -112,6 +119,7 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
     score.points = points.size();
     for (const PointResult& r : results[t]) {
       score.singular += r.singular ? 1 : 0;
+      score.otherParameters += r.otherParameters ? 1 : 0;
       score.singularFloat32 += r.singularFloat32 ? 1 : 0;
     }
     for (std::size_t m = 0; m < kMetricCount; ++m) {

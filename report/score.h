@@ -15,8 +15,8 @@ struct ScoreOptions {
   std::size_t count = 512;  ///< points; 0: all nodes
   double minAlpha = 0.0;    ///< leave out points with alpha below
   MetricOptions metrics;
-  bool interpolation =
-      false;        ///< also fit each point directly (L3, isotropic tables) for the interpolation ratio
+  /// Also fit each point directly (L3, the family of the table's provenance, isotropic tables only) for the ratio.
+  bool interpolation = false;
   int threads = 0;  ///< 0: as many as OpenMP offers
 };
 
@@ -24,6 +24,8 @@ struct Score {
   std::array<Summary, kMetricCount> summary;
   std::array<bool, kMetricCount> present{};
   std::size_t points = 0;
+  std::size_t otherParameters =
+      0;                     ///< nodes that this table has fitted at other parameters than the first one
   std::size_t singular = 0;  ///< fetched matrices without an inverse: all metrics of these points are missing
   std::size_t singularFloat32 = 0;  ///< without a usable inverse in float32
 };

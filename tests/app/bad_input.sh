@@ -72,14 +72,40 @@ expect "--family" fit iso -o x.json --family 5
 expect "--axes" fit iso -o x.json --axes 2018
 expect "--fitter" fit iso -o x.json --fitter magic
 expect "--seed" fit iso -o x.json --seed -1
+expect "name the same file" fit iso -o x.json --report x.json
+expect "--prefix" export good.json -o y.json --prefix a
 expect "--threads" fit iso -o x.json --threads -1
-expect "--unknown" fit iso -o x.json --unknown
+expect "not expected: --unknown" fit iso -o x.json --unknown
 expect "--output is required" fit iso
 expect "no/such" fit iso -o no/such/x.json
 expect "no/such" fit iso -o x.json --report no/such/x.csv
 expect "subcommand is required" fit
 expect "subcommand is required"
+expect "unknown option .--foo" --foo
 expect "unknown command .nonsense." nonsense x
+
+# the quality gate: exit 3, no table, but the report that tells why
+"$ltcfit" fit iso -o x.json --size 8x8 --alpha-floor 1e-5 --max-evaluations 1 --report r.csv >/dev/null 2>stderr.txt
+[ $? -eq 3 ] || fail "no exit 3 for unusable entries"
+grep -q "entries are unusable" stderr.txt || fail "no message for unusable entries"
+[ ! -e x.json ] && grep -q ",0$" r.csv || fail "a table was written, or no report"
+rm -f r.csv stderr.txt
+# a closed or full stderr does not change the exit code, a full stdout is a failure
+for target in /dev/full; do
+  [ -e $target ] || continue
+  "$ltcfit" score missing.json 2>$target; [ $? -eq 2 ] || fail "full stderr"
+  "$ltcfit" --help >$target 2>/dev/null; [ $? -eq 1 ] || fail "--help to a full disk"
+  "$ltcfit" score -q good.json --count 2 >$target 2>/dev/null; [ $? -eq 1 ] || fail "score to a full disk"
+done
+"$ltcfit" score missing.json 2>&-; [ $? -eq 2 ] || fail "closed stderr"
+python3 -c "print('{\"format\":\"ltc-table\",\"version\":' + '[' * 200000 + ']' * 200000 + '}')" > deep.json
+expect "deep.json: version of another type" score deep.json
+rm deep.json
+# links keep pointing, modes stay
+cp good.json target.json; chmod 600 target.json; ln -s target.json link.json
+"$ltcfit" export -q good.json -o link.json || fail "export through a link"
+[ -L link.json ] && [ "$(stat -c %a target.json)" = 600 ] || fail "the link or the mode of its target is gone"
+rm link.json target.json
 
 [ "$(ls)" = "$(cat before)" ] || fail "files were left: $(ls | diff before - | tr '\n' ' ')"
 "$ltcfit" --help | grep -q "Exit codes" || fail "--help"

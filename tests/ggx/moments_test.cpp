@@ -87,6 +87,21 @@ TEST(Moments, AgreeWithSamplingEverywhere) {
   }
 }
 
+TEST(Moments, AnisotropicGrazingViewHasAlbedoOne) {
+  // nothing is masked at 90 degrees, whatever alpha: a known answer where lobes are thin, curved lunes
+  Random random(1);
+  for (int i = 0; i < 300; ++i) {
+    const double alpha = std::pow(10.0, -3.0 * random.uniform());
+    const double lambda = 1.0 / (1.0 + 99.0 * random.uniform());
+    const GgxAlpha a{alpha, std::max(1e-4, alpha * lambda)};
+    const double phi = 0.5 * kPi * random.uniform();
+    for (const GgxAlpha& both : {a, GgxAlpha{a.y, a.x}}) {
+      EXPECT_NEAR(computeMoments(GgxLobe(viewDirection(0.5 * kPi, phi), both)).albedo, 1.0, 1e-4)
+          << both.x << " " << both.y << " " << phi;
+    }
+  }
+}
+
 TEST(Moments, TheWidthOfASharpLobe) {
   for (double alpha : {1e-2, 1e-4, 1e-5}) {
     for (double theta : {0.0, 1.0, 1.55, 0.5 * kPi}) {

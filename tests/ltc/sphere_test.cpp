@@ -97,6 +97,20 @@ TEST(Sphere, IsSnydersFormula) {
   EXPECT_GT(wrong, 0.01);  // G - H below the horizon is not the same
 }
 
+TEST(Sphere, SmallSpheresAtTheHorizonKeepTheirDigits) {
+  // relative to sin^2 sigma the form factor only depends on cos omega / sin sigma: half buried it tends to
+  // 2/(3 pi) sin sigma
+  for (double s : {0.02, 1e-3, 1e-5, 1e-8}) {
+    EXPECT_NEAR(sphereFormFactorClipped(0.0, s) / (s * s * s * 2.0 / (3.0 * kPi)), 1.0, s * s + 1e-12) << s;
+    EXPECT_NEAR(sphereFormFactorClipped(0.5 * s, s) / (s * s * s),
+                sphereFormFactorClipped(0.5 * 0.001, 0.001) / 1e-9, 1e-3)
+        << s;
+    EXPECT_LE(sphereFormFactorClipped(0.999999 * s, s), s * s);
+  }
+  // and the series meets the closed form
+  EXPECT_NEAR(sphereFormFactorClipped(0.0, 0.0299999) / sphereFormFactorClipped(0.0, 0.0300001), 1.0, 3e-5);
+}
+
 TEST(Sphere, IsContinuousWhereTheCasesMeet) {
   for (double sinSigma : {1e-3, 0.3, 0.9}) {
     for (double edge : {sinSigma, -sinSigma}) {

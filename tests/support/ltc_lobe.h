@@ -17,6 +17,10 @@ class LtcLobe final : public Lobe {
   double eval(const Eigen::Vector3d& wi) const override { return albedo_ * ltc_.density(wi); }
   double pdf(const Eigen::Vector3d& wi) const override { return ltc_.density(wi); }
   LobeSample sample(const Eigen::Vector2d& u) const override { return {ltc_.sample(u), albedo_}; }
+  bool isIsotropic() const override { return true; }  // M of a planar family
+  StretchedNode atStretched(const Eigen::Vector3d& s) const override {
+    return {ltc_.transform(s), albedo_ * cosineDensity(s)};
+  }
   Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const override {
     const Eigen::Vector3d s = (ltc_.mInv() * wi).normalized();
     return {s.x(), s.y(), s.z(), 0.0};
