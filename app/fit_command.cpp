@@ -136,7 +136,8 @@ void printText(const FitArguments& a, const IsotropicFitResult& result, const Ti
       "relative L3 error of the fit: mean {:.4f}, p99 {:.4f}, max {:.4f}; norm and Fresnel within {:.0e}\n",
       relative.mean, relative.p99, relative.max, result.largestMomentError);
   if (score != nullptr) {
-    fmt::print("off-grid at {} points, on samples the fit has not seen:\n", score->points);
+    fmt::print("off-grid at {} points, fetched as shaders read the exported header, on unseen samples:\n",
+               score->points);
     for (Metric m : kSummaryMetrics) {
       const Summary& s = score->summary[static_cast<std::size_t>(m)];
       fmt::print("  {:<8} mean {:.5f}  p99 {:.5f}\n", metricName(m), s.mean, s.p99);
@@ -198,7 +199,9 @@ int fitIso(const FitArguments& a) {
       scoring.count = static_cast<std::size_t>(a.scorePoints);
       scoring.metrics.seed = static_cast<std::uint64_t>(a.seed) + 1;
       scoring.threads = a.threads;
-      score = std::make_unique<Score>(scoreTables({&table}, scoring)[0]);
+      // as the header is read: shaders interpolate the inverse
+      const Table read = storedAs(table, MatrixStorage::kMinv, MatrixNormalization::kMiddleElement);
+      score = std::make_unique<Score>(scoreTables({&read}, scoring)[0]);
     }
   }
   if (a.json) {

@@ -12,7 +12,7 @@ reference=${LTCFIT_REFERENCE_DIR:-../shared/reference}/ltc2017-1.npy
 against=()
 if [ -f "$reference" ]; then against=(--against "$reference"); fi
 for points in nodes off-grid extreme; do
-  build/ltcfit score out/ltc_iso.json --points $points "${against[@]}"
+  build/ltcfit score out/ltc_iso.json --stored-as Minv --points $points "${against[@]}"
   echo
 done > out/ltc_iso.txt
 echo "error figures: out/ltc_iso.txt"
