@@ -116,7 +116,11 @@ void checkWritable(const std::string& path) {
   const fs::path folder = folderOf(path);
   if (!fs::is_directory(folder, ignored))
     throw InputError(path + ": the folder " + folder.string() + " does not exist");
-  if (::access(folder.c_str(), W_OK) != 0)
+  if (fs::exists(path, ignored)) {
+    if (::access(path.c_str(), W_OK) != 0) throw InputError(path + ": cannot write: " + std::strerror(errno));
+    if (!fs::is_regular_file(path, ignored)) return;  // a device or pipe is written to, not replaced
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw InputError(path + ": cannot write into its folder: " + std::strerror(errno));
 }
 

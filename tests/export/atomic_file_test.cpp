@@ -51,6 +51,26 @@ TEST_F(AtomicFile, WritabilityIsAskedFirst) {
   EXPECT_EQ(filesInFolder(), 0u);
 }
 
+TEST_F(AtomicFile, LinksAndPermissionsStay) {
+  const fs::path target = folder_ / "target";
+  writeFileAtomically(target, "old");
+  fs::permissions(target, fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink(target, folder_ / "link");
+  writeFileAtomically(folder_ / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(readFile(target), "new");
+  EXPECT_EQ(fs::status(target).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(filesInFolder(), 2u);
+}
+
+TEST_F(AtomicFile, DevicesAreWrittenToNotReplaced) {
+  EXPECT_NO_THROW(checkWritable("/dev/null"));
+  writeFileAtomically("/dev/null", "x");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THROW(writeFileAtomically("/dev/full", "x"), FileError);  // a full disk is an error
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
 TEST_F(AtomicFile, ReadingWhatIsNotThere) {
   EXPECT_THROW(readFile(folder_ / "nothing"), InputError);
   EXPECT_THROW(readFile(folder_), InputError);
