@@ -26,7 +26,4 @@ void addFitCommand(CLI::App& app, CommandStatus& status);
 void addExportCommand(CLI::App& app, CommandStatus& status);
 void addScoreCommand(CLI::App& app, CommandStatus& status);
 
-/// CPU seconds of the whole process, all threads.
-double cpuSeconds();
-
 }  // namespace ltcfit::app

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "export/anisotropic_c_header.h"
 #include "export/atomic_file.h"
 #include "export/c_header.h"
 #include "export/json_table.h"
@@ -33,6 +34,8 @@ int exportTable(const ExportArguments& a) {
   try {
     if (format == "json") {
       bytes = tableToJson(table);
+    } else if (!table.isIsotropic()) {
+      bytes = tableToAnisotropicCHeader(table, a.prefix.empty() ? "anisomats" : a.prefix);
     } else {
       bytes = tableToCHeader(table,
                              a.prefix.empty() ? std::filesystem::path(a.output).stem().string() : a.prefix);
@@ -58,7 +61,10 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
       ->add_option("--format", a->format,
                    "h: C/C++ header, texture-ready; json: the table file [json for *.json, else h]")
       ->check(CLI::IsMember({"h", "json"}));
-  command->add_option("--prefix", a->prefix, "Start of the names in the header [the output's file name]")
+  command
+      ->add_option(
+          "--prefix", a->prefix,
+          "Start of the names in the header [the output's file name; anisomats for an anisotropic table]")
       ->type_name("NAME");
   command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors");
   command->callback([a, &status] { status.exitCode = exportTable(*a); });

@@ -211,7 +211,7 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command->add_flag("--interpolation", a->interpolation,
-                    "Also fit each point directly (L3) and report the interpolation ratio; isotropic tables");
+                    "Also fit each point directly, as the table was, and report the interpolation ratio");
   command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the result")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -25,4 +25,22 @@ EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const E
   return fit;
 }
 
+EntryFit fitL3Entry(const Lobe& lobe, double albedo, MatrixFamily family, const Eigen::Matrix3d& start,
+                    const EntryFitOptions& options) {
+  const L3Objective objective(lobe, albedo, options.samples, options.seed);
+  const std::vector<double> zero(familyBasis(family).size(), 0.0);
+  const std::vector<double> steps(zero.size(), options.simplexEdge);
+  const OptimizerResult best =
+      minimizeNelderMead([&](std::span<const double> p) { return objective(changedBy(start, family, p)); },
+                         zero, steps, options.nelderMead);
+  EntryFit fit;
+  fit.m = changedBy(start, family, best.parameters);
+  fit.startCost = best.startCost;
+  fit.cost = best.cost;
+  fit.relativeL3 = std::cbrt(best.cost / objective.lobeCube());
+  fit.evaluations = best.evaluations;
+  fit.termination = best.termination;
+  return fit;
+}
+
 }  // namespace ltcfit

@@ -1,10 +1,11 @@
-// Fits the matrix of one isotropic table entry.
+// Fits the matrix of one table entry with Nelder-Mead on the L3 error.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 
 #include "fit/isotropic_family.h"
+#include "fit/matrix_family.h"
 #include "fit/nelder_mead.h"
 #include "ggx/lobe.h"
 #include "ggx/moments.h"
@@ -34,5 +35,11 @@ struct EntryFit {
 /// Minimises the L3 objective from `start`. `moments` are those of `lobe`, whose wo lies in the x-z plane.
 EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const Eigen::Matrix3d& start,
                            const EntryFitOptions& options);
+
+/// The same objective over the matrices of a family, from `start` in that family: what the 2022 paper
+/// compares with. The simplex moves in P of M (I + P). `albedo` is the lobe's n_D; options.family is not
+/// used.
+EntryFit fitL3Entry(const Lobe& lobe, double albedo, MatrixFamily family, const Eigen::Matrix3d& start,
+                    const EntryFitOptions& options);
 
 }  // namespace ltcfit

@@ -5,8 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <sstream>
 
 #include "fit/lobe_shape.h"
 #include "ggx/ggx_lobe.h"
@@ -17,34 +15,9 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr std::size_t kSmallestAxis = 2;
-constexpr std::size_t kLargestAxis = 1024;
 // First simplex of a second try against that of the first: it should leave the valley that the first one
 // chose.
 constexpr double kRefitEdgeFactor = 4.0;
-
-// A number for a message, without trailing zeros or rounding to 0.
-std::string plain(double v) {
-  std::ostringstream out;
-  out << v;
-  return out.str();
-}
-
-AxisMap angleMap(IsotropicAxes axes) {
-  return axes == IsotropicAxes::k2017 ? AxisMap::kSqrtOneMinusCos : AxisMap::kLinear;
-}
-
-TableInfo makeInfo(const IsotropicFitOptions& o) {
-  TableInfo info;
-  info.axes.push_back(makeAxis("theta", "rad", angleMap(o.axes), o.thetaNodes, 0.0, 0.5 * std::numbers::pi));
-  info.axes.back().values.back() = std::min(info.axes.back().values.back(), o.thetaMax);
-  info.axes.push_back(makeAxis("alpha", "1", AxisMap::kSqrt, o.alphaNodes, 0.0, 1.0, o.alphaFloor));
-  info.stores = MatrixStorage::kM;
-  info.normalization = MatrixNormalization::kThirdColumnUnit;
-  info.channels = {"m00", "m02", "m11", "m20", "m22", "norm", "fresnel"};
-  info.alphaFloor = o.alphaFloor;
-  return info;
-}
 
 // det > 0 follows from the parametrisation; it is checked all the same, on the way into the table.
 bool isUsable(const Matrix3d& m) {
@@ -57,9 +30,9 @@ class TableFit {
   TableFit(const IsotropicFitOptions& options, const FitProgress& progress)
       : options_(options),
         progress_(progress),
-        info_(makeInfo(options)),
-        nT_(options.thetaNodes),
-        nA_(options.alphaNodes),
+        info_(planIsotropicTable(options.table).info),
+        nT_(options.table.thetaNodes),
+        nA_(options.table.alphaNodes),
         moments_(nT_ * nA_),
         shapes_(nT_ * nA_),
         reports_(nT_ * nA_) {}
@@ -233,31 +206,7 @@ std::string_view warmStartName(WarmStart start) {
 }
 
 bool IsotropicFitOptions::isValid(std::string* error) const {
-  const auto inRange = [](std::size_t n) { return n >= kSmallestAxis && n <= kLargestAxis; };
-  if (!inRange(thetaNodes) || !inRange(alphaNodes)) {
-    *error = "--size " + std::to_string(thetaNodes) + "x" + std::to_string(alphaNodes) +
-             ": each must be in [" + std::to_string(kSmallestAxis) + ", " + std::to_string(kLargestAxis) +
-             "]";
-    return false;
-  }
-  if (!(alphaFloor >= 1e-5) || !(alphaFloor < 1.0)) {
-    *error = "--alpha-floor must be in [1e-5, 1)";
-    return false;
-  }
-  const double secondNode = 1.0 / static_cast<double>(alphaNodes - 1);
-  if (alphaFloor >= secondNode * secondNode) {
-    *error = "--alpha-floor " + plain(alphaFloor) + ": with " + std::to_string(alphaNodes) +
-             " alpha nodes it must be below the second one's alpha, " +
-             std::to_string(secondNode * secondNode);
-    return false;
-  }
-  const double beforeLast = makeAxis("theta", "rad", angleMap(axes), thetaNodes, 0.0, 0.5 * std::numbers::pi)
-                                .values[thetaNodes - 2];
-  if (!(thetaMax > beforeLast) || thetaMax > 0.5 * std::numbers::pi) {
-    *error = "--theta-max " + std::to_string(thetaMax) + ": must be above the node before the last, " +
-             std::to_string(beforeLast) + ", and at most pi/2";
-    return false;
-  }
+  if (!table.isValid(error)) return false;
   if (entry.samples < 16 || entry.samples > 1 << 22) {
     *error = "--samples " + std::to_string(entry.samples) + " must be in [16, 4194304]";
     return false;

@@ -3,26 +3,17 @@
 
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "fit/entry_fit.h"
+#include "fit/table_plan.h"
 #include "ltc/table.h"
 
 namespace ltcfit {
 
-/// Axes of the table: the angle axis of the paper (theta, linear) or of the published table
-/// (sqrt(1 - cos theta)); alpha by its square root in both.
-enum class IsotropicAxes { k2016, k2017 };
-
 struct IsotropicFitOptions {
-  std::size_t thetaNodes = 64;
-  std::size_t alphaNodes = 64;
-  IsotropicAxes axes = IsotropicAxes::k2017;
-  double alphaFloor = 1e-4;  ///< alpha of the node at sqrt(alpha) = 0, in [1e-5, 1)
-  /// theta of the last node, radians, at most pi/2. Grazing view needs no clamp; the 2017 table has 1.57.
-  double thetaMax = 0.5 * std::numbers::pi;
+  IsotropicTableOptions table;
   EntryFitOptions entry;
   int threads = 0;  ///< 0: as many as OpenMP offers
 

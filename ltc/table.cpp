@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "ltc/symmetry.h"
+
 namespace ltcfit {
 namespace {
 
@@ -238,7 +240,7 @@ Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization nor
     const auto refuse = [&](const char* what) { fail("node " + std::to_string(i) + " " + what); };
     if (!entry.invertible) refuse("has no inverse");
     Eigen::Matrix3d m = stores == MatrixStorage::kM ? entry.m : entry.mInv;
-    if (m(1, 1) < 0.0) {
+    if (normalization == MatrixNormalization::kMiddleElement && m(1, 1) < 0.0) {
       // M diag(1, -1, 1) is the same lobe: column 1 of M, row 1 of its inverse
       if (stores == MatrixStorage::kM) {
         m.col(1) *= -1.0;
@@ -257,7 +259,10 @@ Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization nor
   return Table(std::move(info), std::move(data));
 }
 
-TableEntry Table::fetch(const LobeParameters& p) const {
+TableEntry Table::fetch(const LobeParameters& asked) const {
+  const CanonicalLobe lobe =
+      isIsotropic() ? CanonicalLobe{asked, Eigen::Matrix3d::Identity()} : canonicalLobe(asked);
+  const LobeParameters& p = lobe.parameters;
   const std::array<double, 4> isotropic{p.theta, p.alphaX, 0.0, 0.0};
   const std::array<double, 4> anisotropic{p.alphaX, p.alphaY / p.alphaX, p.theta, p.phi};
   const std::array<double, 4>& value = isIsotropic() ? isotropic : anisotropic;
@@ -283,7 +288,12 @@ TableEntry Table::fetch(const LobeParameters& p) const {
     for (std::size_t c = 0; c < channels.size(); ++c)
       channels[c] += weight * static_cast<double>(data_[offset + c]);
   }
-  return unpack(channels.data());
+  TableEntry entry = unpack(channels.data());
+  if (!isIsotropic()) {
+    entry.m = fromCanonical(lobe, entry.m);
+    entry.mInv = fromCanonical(lobe, entry.mInv);
+  }
+  return entry;
 }
 
 }  // namespace ltcfit

@@ -97,8 +97,9 @@ class Table {
   TableEntry entry(std::span<const std::size_t> node) const;
 
   /// Multilinear look-up of the stored values at the parameters, then the inversion: what a shader does, in
-  /// double arithmetic on the float32 values. Parameters outside of the axes are clamped to them. An
-  /// anisotropic table needs alphaX >= alphaY and phi in [0, pi/2]; an isotropic one uses alphaX and theta.
+  /// double arithmetic on the float32 values. Parameters outside of the axes are clamped to them. For an
+  /// anisotropic table phi is any angle and the alphas come in any order (symmetry.h), and the result is
+  /// continuous in all of them; an isotropic one uses alphaX and theta.
   TableEntry fetch(const LobeParameters& parameters) const;
 
  private:
@@ -117,8 +118,9 @@ class Table {
 /// The same lobes stored otherwise: M or its inverse, scaled as told, rounded to float32; norm and Fresnel as
 /// they are. This is how a table is read by shaders that interpolate the inverse (the layout of 2017):
 /// between nodes the two differ. Channels: m00, m02, m11, m20, m22 where all other entries are 0, else all
-/// nine. A matrix whose element (1, 1) is negative is replaced by the equivalent one with a flip of y. Throws
-/// std::invalid_argument for a node without an inverse, or with one that does not fit float32.
+/// nine. For kMiddleElement a matrix whose element (1, 1) is negative is replaced by the equivalent one with
+/// a flip of y. Throws std::invalid_argument for a node without an inverse, or with one that does not fit
+/// float32.
 Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization normalization);
 
 }  // namespace ltcfit

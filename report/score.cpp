@@ -5,12 +5,18 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <variant>
 
 #include "fit/entry_fit.h"
-#include "ggx/ggx_lobe.h"
+#include "fit/sliced_wasserstein_fit.h"
+#include "fit/table_plan.h"
+#include "fit/target_lobe.h"
 
 namespace ltcfit {
 namespace {
+
+using Eigen::Matrix3d;
 
 struct PointResult {
   EntryMetrics metrics;
@@ -34,15 +40,39 @@ bool sameParameters(const LobeParameters& a, const LobeParameters& b) {
 
 // The target of one set of parameters. Not copyable: the metrics keep a reference to the lobe.
 struct Target {
-  Target(const LobeParameters& p, const MetricOptions& options)
-      : parameters(p), lobe(viewDirection(p.theta, p.phi), {p.alphaX, p.alphaY}), metrics(lobe, options) {}
+  Target(const std::string& brdf, const LobeParameters& p, const MetricOptions& options)
+      : parameters(p), lobe(makeTargetLobe(brdf, p)), metrics(*lobe, options) {}
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
 
   LobeParameters parameters;
-  GgxLobe lobe;
+  std::unique_ptr<Lobe> lobe;
   MetricTarget metrics;
 };
+
+// A fit of the very point, of the table's own kind: its error at a node is then no cost of interpolation. L3
+// for isotropic tables that were fitted with it (those that do not say how are taken for such), else sliced
+// Wasserstein.
+Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& target, std::uint64_t seed) {
+  const auto option = [&](std::string_view name) -> std::string {
+    for (const auto& [key, value] : table.info().provenance.options) {
+      if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
+    }
+    return {};
+  };
+  const std::string fitter = option("fitter");
+  if (table.isIsotropic() && fitter != "sw" && fitter != "sw-sgd") {
+    EntryFitOptions fit;
+    if (option("family") == "3") fit.family = IsotropicFamily::kMeanFrame3;
+    fit.seed = seed;
+    return fitIsotropicEntry(*target.lobe, target.metrics.moments(), fetched, fit).m;
+  }
+  SlicedWassersteinFitOptions fit;
+  fit.seed = seed;
+  const SlicedWassersteinTarget lobe = makeTarget(*target.lobe, familyOf(target.parameters), fit);
+  ProjectedCdfLoss loss = makeLoss(lobe, fit.levels.back(), fit.seed);
+  return fitSlicedWasserstein(lobe, lobe.start, fit, loss).m;
+}
 
 PointResult judge(const TableEntry& entry, const Table& table, const Target& target,
                   const ScoreOptions& options) {
@@ -57,17 +87,10 @@ PointResult judge(const TableEntry& entry, const Table& table, const Target& tar
   const Ltc ltc(entry.m);
   out.metrics = target.metrics.evaluate(ltc);
   addEntryErrors(entry, table.info().stores, target.metrics.moments(), out.metrics);
-  if (options.interpolation && table.isIsotropic()) {
-    EntryFitOptions fit;
-    for (const auto& [key, value] : table.info().provenance.options) {
-      // the direct fit is of the table's own kind: its error at a node is then no cost of interpolation
-      if (key == "family" && value == Provenance::Value(std::string("3")))
-        fit.family = IsotropicFamily::kMeanFrame3;
-    }
-    fit.seed = mixSeed(options.metrics.seed, 21);
-    const EntryFit direct = fitIsotropicEntry(target.lobe, target.metrics.moments(), entry.m, fit);
+  if (options.interpolation) {
+    const Matrix3d direct = directFit(entry.m, table, target, mixSeed(options.metrics.seed, 21));
     out.metrics.set(Metric::kInterpolationRatio,
-                    out.metrics.get(Metric::kSw1) / target.metrics.sw1(Ltc(direct.m)));
+                    out.metrics.get(Metric::kSw1) / target.metrics.sw1(Ltc(direct)));
   }
   return out;
 }
@@ -93,15 +116,16 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
     // Lights, directions and samples of its own for each point: their noise then averages out over the table.
     ScoreOptions own = options;
     own.metrics.seed = mixSeed(options.metrics.seed, 1000 + i);
-    const Target target(points[i].parameters, own.metrics);
+    const Target target(first.info().brdf, points[i].parameters, own.metrics);
     for (std::size_t t = 0; t < tables.size(); ++t) {
       const Table& table = *tables[t];
       if (points[i].node && sameLayout(first, table)) {
         const std::vector<std::size_t> node = table.node(*points[i].node);
         const LobeParameters fitted = table.parameters(node);
         const bool same = sameParameters(fitted, points[i].parameters);
-        results[t][i] = same ? judge(table.entry(node), table, target, own)
-                             : judge(table.entry(node), table, Target(fitted, own.metrics), own);
+        results[t][i] =
+            same ? judge(table.entry(node), table, target, own)
+                 : judge(table.entry(node), table, Target(table.info().brdf, fitted, own.metrics), own);
         results[t][i].otherParameters = !same;
       } else {
         results[t][i] = judge(table.fetch(points[i].parameters), table, target, own);

@@ -15,8 +15,7 @@ struct ScoreOptions {
   std::size_t count = 512;  ///< points; 0: all nodes
   double minAlpha = 0.0;    ///< leave out points with alpha below
   MetricOptions metrics;
-  /// Also fit each point directly (L3, the family of the table's provenance, isotropic tables only) for the
-  /// ratio.
+  /// Also fit each point directly, as the table's provenance says it was fitted, for the ratio.
   bool interpolation = false;
   int threads = 0;  ///< 0: as many as OpenMP offers
 };

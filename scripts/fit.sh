@@ -1,18 +1,26 @@
 #!/usr/bin/env bash
-# The main job: sets up, builds, fits the isotropic table and leaves it with its figures in out/.
-#   out/ltc_iso.json     the table            out/ltc_iso.h       the same as a C/C++ header
-#   out/ltc_iso.csv      one line an entry    out/ltc_iso.txt     its error: nodes, off-grid, extreme
+# The main job: sets up, builds, fits both tables and leaves them with their figures in out/.
+#   out/ltc_iso.json, out/ltc_aniso.json    the tables
+#   out/ltc_iso.h,    out/ltc_aniso.h       the same as C/C++ headers
+#   out/ltc_iso.csv,  out/ltc_aniso.csv     one line an entry
+#   out/ltc_iso.txt,  out/ltc_aniso.txt     their error: nodes, off-grid, extreme
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 mkdir -p out
-build/ltcfit fit iso -o out/ltc_iso.json --report out/ltc_iso.csv "$@"
-build/ltcfit export out/ltc_iso.json --format h -o out/ltc_iso.h
-reference=${LTCFIT_REFERENCE_DIR:-../shared/reference}/ltc2017-1.npy
-against=()
-if [ -f "$reference" ]; then against=(--against "$reference"); fi
-for points in nodes off-grid extreme; do
-  build/ltcfit score out/ltc_iso.json --stored-as Minv --points $points "${against[@]}"
-  echo
-done > out/ltc_iso.txt
-echo "error figures: out/ltc_iso.txt"
+references=${LTCFIT_REFERENCE_DIR:-../shared/reference}
+score() { # TABLE REFERENCE POINTS-A-SET OPTIONS...
+  local against=()
+  if [ -f "$references/$2" ]; then against=(--against "$references/$2"); fi
+  for points in nodes off-grid extreme; do
+    build/ltcfit score "out/$1.json" --points $points --count "$3" "${@:4}" "${against[@]}"
+    echo
+  done > "out/$1.txt"
+  echo "error figures: out/$1.txt"
+}
+for kind in iso aniso; do
+  build/ltcfit fit $kind -o out/ltc_$kind.json --resume --report out/ltc_$kind.csv
+  build/ltcfit export out/ltc_$kind.json --format h -o out/ltc_$kind.h
+done
+score ltc_iso ltc2017-1.npy 512 --stored-as Minv
+score ltc_aniso kt2022-alpha-lambda-theta-phi.npy 96

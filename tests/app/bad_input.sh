@@ -56,10 +56,10 @@ expect "--output is required" export good.json
 expect "--size '0x0x0'" fit iso -o x.json --size 0x0x0
 expect "--size '64'" fit iso -o x.json --size 64
 expect "--size '4x-4'" fit iso -o x.json --size 4x-4
-expect "--size 0x4" fit iso -o x.json --size 0x4
-expect "--size 1x4" fit iso -o x.json --size 1x4
-expect "--size 4x1" fit iso -o x.json --size 4x1
-expect "--size 4x99999" fit iso -o x.json --size 4x99999
+expect "0 theta nodes" fit iso -o x.json --size 0x4
+expect "1 theta nodes" fit iso -o x.json --size 1x4
+expect "1 alpha nodes" fit iso -o x.json --size 4x1
+expect "99999 alpha nodes" fit iso -o x.json --size 4x99999
 expect "--alpha-floor" fit iso -o x.json --alpha-floor -0.1
 expect "--alpha-floor" fit iso -o x.json --alpha-floor nan
 expect "--alpha-floor" fit iso -o x.json --alpha-floor 0.5
@@ -74,6 +74,31 @@ expect "--fitter" fit iso -o x.json --fitter magic
 expect "--seed" fit iso -o x.json --seed -1
 expect "name the same file" fit iso -o x.json --report x.json
 expect "--prefix" export good.json -o y.json --prefix a
+expect "needs --fitter l3" fit iso -o x.json --family 3
+expect "needs --fitter l3" fit iso -o x.json --max-evaluations 5
+expect "needs --fitter sw" fit iso -o x.json --fitter l3 --preset fast
+expect "needs --fitter sw-sgd" fit aniso -o x.json --preset paper
+expect "needs --fitter sw;" fit aniso -o x.json --fitter sw-sgd --preset fine
+expect "--resume" fit iso -o x.json --fitter l3 --resume
+expect "--leak-weight" fit iso -o x.json --leak-weight -1
+expect "--leak-weight needs" fit aniso -o x.json --fitter l3 --leak-weight 1
+expect "--directions" fit iso -o x.json --directions 2
+expect "--size '8x8x8'" fit aniso -o x.json --size 8x8x8
+expect "--size '8x8x8x8x8'" fit aniso -o x.json --size 8x8x8x8x8
+expect "--size '8x8x8x'" fit aniso -o x.json --size 8x8x8x
+expect "lambda nodes" fit aniso -o x.json --size 8x1x8x8
+expect "phi nodes" fit aniso -o x.json --size 8x8x8x65
+expect "--alpha-floor" fit aniso -o x.json --alpha-floor 0.2
+expect "--theta-max" fit aniso -o x.json --theta-max 1.58
+expect "no/such" fit aniso -o no/such/x.json
+expect "--alpha-x" fit entry --alpha-x 2
+expect "--theta" fit entry --alpha-x 0.5 --theta 91
+echo "ltcfit-checkpoint 1 9 another command" > x.json.part
+expect "x.json.part: left by an interrupted run" fit aniso -o x.json --size 2x2x2x2
+expect "x.json.part: holds another run" fit aniso -o x.json --size 2x2x2x2 --resume
+echo "something else, longer than any header of a checkpoint would be, whatever the options were, for certain: and then some more of it to be sure that it is longer than the whole of the command line" > x.json.part
+expect "x.json.part: not a checkpoint" fit aniso -o x.json --size 2x2x2x2 --resume
+rm x.json.part
 expect "--threads" fit iso -o x.json --threads -1
 expect "not expected: --unknown" fit iso -o x.json --unknown
 expect "--output is required" fit iso
@@ -85,7 +110,7 @@ expect "unknown option .--foo" --foo
 expect "unknown command .nonsense." nonsense x
 
 # the quality gate: exit 3, no table, but the report that tells why
-"$ltcfit" fit iso -o x.json --size 8x8 --alpha-floor 1e-5 --max-evaluations 1 --report r.csv >/dev/null 2>stderr.txt
+"$ltcfit" fit iso --fitter l3 -o x.json --size 8x8 --alpha-floor 1e-5 --max-evaluations 1 --report r.csv >/dev/null 2>stderr.txt
 [ $? -eq 3 ] || fail "no exit 3 for unusable entries"
 grep -q "entries are unusable" stderr.txt || fail "no message for unusable entries"
 [ ! -e x.json ] && grep -q ",0$" r.csv || fail "a table was written, or no report"

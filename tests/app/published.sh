@@ -4,7 +4,7 @@ if [ ! -e "$reference_dir/ltc2017-1.npy" ]; then
   echo "SKIPPED: the published tables are not at $reference_dir"
   exit 77
 fi
-"$ltcfit" fit iso -q -o f3.json --family 3 --alpha-floor 1e-5 --theta-max 1.57 || fail "the fit"
+"$ltcfit" fit iso -q --fitter l3 -o f3.json --family 3 --alpha-floor 1e-5 --theta-max 1.57 || fail "the fit"
 "$ltcfit" score -q f3.json --against "$reference_dir/ltc2017-1.npy" --count 0 --samples 8192 --directions 1 --quads 1 \
   --lights 1 --seed 12 --json > score.json || fail "the score"
 python3 - <<'PY' || fail "a figure"

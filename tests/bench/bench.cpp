@@ -71,7 +71,7 @@ BENCHMARK(fitEntry)->Arg(256)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecon
 
 void fitTable(benchmark::State& state) {
   IsotropicFitOptions options;
-  options.thetaNodes = options.alphaNodes = 16;
+  options.table.thetaNodes = options.table.alphaNodes = 16;
   options.threads = static_cast<int>(state.range(0));
   double error = 0.0;
   for (auto _ : state) {

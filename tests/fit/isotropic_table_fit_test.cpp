@@ -14,8 +14,8 @@ namespace {
 
 IsotropicFitOptions smallOptions() {
   IsotropicFitOptions o;
-  o.thetaNodes = 8;
-  o.alphaNodes = 8;
+  o.table.thetaNodes = 8;
+  o.table.alphaNodes = 8;
   o.entry.samples = 256;
   return o;
 }
@@ -23,7 +23,7 @@ IsotropicFitOptions smallOptions() {
 TEST(IsotropicTableFit, GivesAUsableTable) {
   for (IsotropicAxes axes : {IsotropicAxes::k2016, IsotropicAxes::k2017}) {
     IsotropicFitOptions options = smallOptions();
-    options.axes = axes;
+    options.table.axes = axes;
     const IsotropicFitResult r = fitIsotropicTable(options);
     EXPECT_EQ(r.unusable, 0u);
     EXPECT_EQ(r.notConverged, 0u);
@@ -82,7 +82,7 @@ TEST(IsotropicTableFit, HopelessEntriesAreUnusable) {
   // one evaluation from warm starts that were never fitted: the sharp rows end worse than no light at all
   IsotropicFitOptions options = smallOptions();
   options.entry.nelderMead.maxEvaluations = 1;
-  options.alphaFloor = 1e-5;
+  options.table.alphaFloor = 1e-5;
   const IsotropicFitResult r = fitIsotropicTable(options);
   EXPECT_GT(r.unusable, 0u);
   EXPECT_EQ(r.unusable,
@@ -119,11 +119,11 @@ TEST(IsotropicFitOptions, AreChecked) {
     EXPECT_FALSE(o.isValid(&error));
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  refuses([](IsotropicFitOptions& o) { o.thetaNodes = 1; }, "--size 1x64");
-  refuses([](IsotropicFitOptions& o) { o.alphaNodes = 0; }, "--size 64x0");
-  refuses([](IsotropicFitOptions& o) { o.alphaFloor = -0.1; }, "--alpha-floor");
-  refuses([](IsotropicFitOptions& o) { o.alphaFloor = std::nan(""); }, "--alpha-floor");
-  refuses([](IsotropicFitOptions& o) { o.alphaFloor = 0.01; }, "second");
+  refuses([](IsotropicFitOptions& o) { o.table.thetaNodes = 1; }, "1 theta nodes");
+  refuses([](IsotropicFitOptions& o) { o.table.alphaNodes = 0; }, "0 alpha nodes");
+  refuses([](IsotropicFitOptions& o) { o.table.alphaFloor = -0.1; }, "--alpha-floor");
+  refuses([](IsotropicFitOptions& o) { o.table.alphaFloor = std::nan(""); }, "--alpha-floor");
+  refuses([](IsotropicFitOptions& o) { o.table.alphaFloor = 0.01; }, "second");
   refuses([](IsotropicFitOptions& o) { o.entry.samples = 0; }, "--samples 0");
   refuses([](IsotropicFitOptions& o) { o.threads = -1; }, "--threads");
 }

@@ -13,7 +13,7 @@ namespace {
 
 Table fitted(std::size_t n) {
   IsotropicFitOptions o;
-  o.thetaNodes = o.alphaNodes = n;
+  o.table.thetaNodes = o.table.alphaNodes = n;
   const IsotropicFitResult r = fitIsotropicTable(o);
   return Table(r.info, r.data);
 }

@@ -1,0 +1,209 @@
+#include "app/fit_arguments.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+
+#include "app/commands.h"
+
+namespace ltcfit::app {
+namespace {
+
+// Isotropic tables have room for less leaked light: at 0.2 it falls by a tenth for half a percent of SW1. For
+// the anisotropic table SW1 comes first (DESIGN.md, Leaked light).
+constexpr double kIsotropicLeakWeight = 0.2;
+constexpr double kHalfPi = 0.5 * std::numbers::pi;
+constexpr int kL3Samples = 1024;
+
+std::string defaultPreset(const FitArguments& a) {
+  if (a.fitter == "sw-sgd") return "quick";
+  return a.kind == FitKind::kIsotropic ? "fast" : "standard";
+}
+
+std::string presetOf(const FitArguments& a) {
+  return a.preset.empty() ? defaultPreset(a) : a.preset;
+}
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw std::invalid_argument(message);
+}
+
+}  // namespace
+
+void addFitterOptions(CLI::App& command, FitArguments& a) {
+  if (a.kind == FitKind::kIsotropic) a.leakWeight = kIsotropicLeakWeight;
+  command
+      .add_option("--fitter", a.fitter,
+                  "sw: sliced-Wasserstein distance, quasi-Newton (fast, best);\n"
+                  "sw-sgd: the same by stochastic descent (KT et al. 2022);\n"
+                  "l3: Nelder-Mead on the L3 error (Heitz et al. 2016)")
+      ->check(CLI::IsMember({"sw", "sw-sgd", "l3"}))
+      ->capture_default_str();
+  command
+      .add_option("--preset", a.preset,
+                  "Effort. sw: fast, standard or fine; sw-sgd: quick or paper (10,000 steps of 2048 samples\n"
+                  "and 64 directions: minutes an entry)")
+      ->check(CLI::IsMember({"fast", "standard", "fine", "quick", "paper"}))
+      ->default_str(a.kind == FitKind::kIsotropic ? "fast; quick" : "standard; quick");
+  command
+      .add_option("--samples", a.samples,
+                  "Directions of the LTC (and, for sw-sgd and l3, as many of the lobe); 16..1048576")
+      ->check(CLI::Range(16, 1 << 20))
+      ->default_str(fmt::format("of the preset; l3: {}", kL3Samples));
+  command.add_option("--directions", a.directions, "Projections of sw and sw-sgd; 4..65536")
+      ->check(CLI::Range(4, 65536))
+      ->default_str("of the preset");
+  command
+      .add_option("--leak-weight", a.leakWeight,
+                  "sw: weight of mass below the horizon, in units of the lobe's width; 0..100")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command
+      .add_option("--max-evaluations", a.maxEvaluations,
+                  "l3: evaluations of the error for one try at one entry, 1..1000000")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command.add_option("--seed", a.seed, "Seed of the sample points, 0..2^53")
+      ->check(CLI::Range(std::int64_t{0}, kLargestSeed))
+      ->capture_default_str();
+}
+
+void addTableOptions(CLI::App& command, FitArguments& a) {
+  command.add_option("-o,--output", a.output, "Table file to write (JSON)")
+      ->required()
+      ->type_name("FILE.json");
+  command
+      .add_option(
+          "--theta-max", a.thetaMax,
+          "View angle of the last nodes, radians; up to pi/2, which needs no clamp (2017 table: 1.57,\n"
+          "2022: 1.57064)")
+      ->type_name("RAD")
+      ->default_str("pi/2");
+  command.add_option("--threads", a.threads, "Threads; 0 = all cores. Does not change the result")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_flag("--resume", a.resume,
+                   "Go on from FILE.json.part, which an interrupted run left; the result is the same");
+  command
+      .add_option("--report", a.reportPath, "Also write a CSV with one line for each entry: how its fit went")
+      ->type_name("FILE.csv");
+  command.add_option("--score-points", a.scorePoints, "Points of the error figures in the summary; 0 = none")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command.add_flag("-q,--quiet", a.quiet, "Print nothing but errors");
+}
+
+bool isWarmStartedL3(const FitArguments& a) {
+  return a.kind == FitKind::kIsotropic && a.fitter == "l3";
+}
+
+void checkFitArguments(const CLI::App& command, const FitArguments& a) {
+  const auto given = [&](const char* option) {
+    const CLI::Option* const found = command.get_option_no_throw(option);
+    return found != nullptr && found->count() > 0;
+  };
+  const bool sw = a.fitter == "sw";
+  const bool sgd = a.fitter == "sw-sgd";
+  const bool l3 = a.fitter == "l3";
+  if (l3 && given("--preset")) refuse("--preset needs --fitter sw or sw-sgd");
+  if (sw && (a.preset == "quick" || a.preset == "paper"))
+    refuse("--preset " + a.preset + " needs --fitter sw-sgd; sw has fast, standard and fine");
+  if (sgd && given("--preset") && a.preset != "quick" && a.preset != "paper")
+    refuse("--preset " + a.preset + " needs --fitter sw; sw-sgd has quick and paper");
+  if (l3 && given("--directions")) refuse("--directions needs --fitter sw or sw-sgd");
+  if (!sw && given("--leak-weight")) refuse("--leak-weight needs --fitter sw");
+  if (!l3 && given("--max-evaluations")) refuse("--max-evaluations needs --fitter l3");
+  if (!l3 && a.family != "4")
+    refuse("--family " + a.family + " needs --fitter l3: sw and sw-sgd fit all 4 parameters");
+  if (isWarmStartedL3(a) && a.resume)
+    refuse("--resume needs --fitter sw or sw-sgd: the l3 fit of an isotropic table takes seconds");
+}
+
+std::vector<std::size_t> parseSize(const std::string& text, std::size_t count) {
+  std::vector<std::size_t> out;
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  while (p < end && text.size() < 24) {
+    std::size_t n = 0;
+    const auto number = std::from_chars(p, end, n);
+    if (number.ec != std::errc()) break;
+    out.push_back(n);
+    p = number.ptr;
+    if (p < end && *p == 'x' && p + 1 < end) {
+      ++p;
+    } else {
+      break;
+    }
+  }
+  if (p != end || out.size() != count) {
+    refuse("--size '" + text + "': need " +
+           (count == 2 ? "THETAxALPHA, for example 64x64" : "ALPHAxLAMBDAxTHETAxPHI, for example 8x8x8x8"));
+  }
+  return out;
+}
+
+TableFitOptions toFitOptions(const FitArguments& a) {
+  TableFitOptions o;
+  const auto seed = static_cast<std::uint64_t>(a.seed);
+  o.threads = a.threads;
+  o.fitter = a.fitter == "sw"       ? Fitter::kSlicedWasserstein
+             : a.fitter == "sw-sgd" ? Fitter::kSlicedWassersteinSgd
+                                    : Fitter::kL3;
+  o.sw = slicedWassersteinPreset(a.fitter == "sw" ? presetOf(a) : "standard");
+  o.sw.seed = seed;
+  if (a.fitter == "sw") {
+    o.sw.leakWeight = a.leakWeight;
+    if (a.samples > 0) o.sw.levels.back().samples = a.samples;
+    if (a.directions > 0) o.sw.levels.back().slices = a.directions;
+  }
+  if (a.fitter == "sw-sgd") {
+    if (presetOf(a) == "paper") o.sgd = paperSgdOptions();
+    if (a.samples > 0) o.sgd.samples = a.samples;
+    if (a.directions > 0) o.sgd.slices = a.directions;
+  }
+  o.sgd.seed = seed;
+  o.l3.samples = a.samples > 0 ? a.samples : kL3Samples;
+  o.l3.seed = seed;
+  o.l3.nelderMead.maxEvaluations = a.maxEvaluations;
+  o.l3.family = a.family == "3" ? IsotropicFamily::kMeanFrame3 : IsotropicFamily::kPlane4;
+  std::string error;
+  if (!o.isValid(&error)) refuse(error);
+  return o;
+}
+
+Provenance makeProvenance(const FitArguments& a) {
+  const bool iso = a.kind == FitKind::kIsotropic;
+  Provenance p;
+  p.tool = "ltcfit";
+  p.toolVersion = LTCFIT_VERSION;
+  p.seed = a.seed;
+  p.command = fmt::format("ltcfit fit {} --size {}", iso ? "iso" : "aniso", a.size);
+  p.options = {{"size", a.size}};
+  const auto add = [&](const char* flag, const char* name, const auto& value, Provenance::Value stored) {
+    p.command += fmt::format(" {} {}", flag, value);
+    p.options.emplace_back(name, std::move(stored));
+  };
+  if (iso) add("--axes", "axes", a.axes, a.axes);
+  add("--fitter", "fitter", a.fitter, a.fitter);
+  if (a.fitter != "l3") add("--preset", "preset", presetOf(a), presetOf(a));
+  if (a.fitter == "l3") {
+    const int samples = a.samples > 0 ? a.samples : kL3Samples;
+    if (iso) add("--family", "family", a.family, a.family);
+    add("--samples", "samples", samples, std::int64_t{samples});
+    if (a.maxEvaluations != NelderMeadOptions{}.maxEvaluations)
+      add("--max-evaluations", "max_evaluations", a.maxEvaluations, std::int64_t{a.maxEvaluations});
+  } else {
+    if (a.samples > 0) add("--samples", "samples", a.samples, std::int64_t{a.samples});
+    if (a.directions > 0) add("--directions", "directions", a.directions, std::int64_t{a.directions});
+  }
+  if (a.fitter == "sw") add("--leak-weight", "leak_weight", a.leakWeight, a.leakWeight);
+  if (!iso && a.symmetry != "during") add("--symmetry", "symmetry", a.symmetry, a.symmetry);
+  add("--alpha-floor", "alpha_floor", a.alphaFloor, a.alphaFloor);
+  if (a.thetaMax != kHalfPi) add("--theta-max", "theta_max", a.thetaMax, a.thetaMax);
+  p.command += fmt::format(" --seed {}", a.seed);
+  return p;
+}
+
+}  // namespace ltcfit::app

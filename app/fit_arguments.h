@@ -1,0 +1,57 @@
+// The options that the fits of tables and of single lobes share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fit/isotropic_table_fit.h"
+#include "fit/table_fit.h"
+
+namespace ltcfit::app {
+
+enum class FitKind { kIsotropic, kAnisotropic, kEntry };
+
+struct FitArguments {
+  FitKind kind = FitKind::kIsotropic;
+  std::string output;
+  std::string reportPath;
+  std::string size;
+  std::string axes = "2017";
+  std::string fitter = "sw";
+  std::string preset;  // empty: the fitter's default
+  std::string family = "4";
+  std::string symmetry = "during";
+  int samples = 0;     // 0: the preset's
+  int directions = 0;  // 0: the preset's
+  double alphaFloor = IsotropicTableOptions{}.alphaFloor;
+  double thetaMax = IsotropicTableOptions{}.thetaMax;
+  double leakWeight = 0.0;
+  int maxEvaluations = NelderMeadOptions{}.maxEvaluations;
+  int threads = 0;
+  std::int64_t seed = 1;
+  int scorePoints = 0;
+  bool resume = false;
+  bool quiet = false;
+  bool json = false;
+};
+
+/// Adds the options that say how a lobe is fitted.
+void addFitterOptions(CLI::App& command, FitArguments& a);
+/// Adds those that only tables have.
+void addTableOptions(CLI::App& command, FitArguments& a);
+
+/// Throws std::invalid_argument for options that do not go together or are out of range.
+void checkFitArguments(const CLI::App& command, const FitArguments& a);
+/// "64x32" to {64, 32}, `count` numbers; std::invalid_argument otherwise.
+std::vector<std::size_t> parseSize(const std::string& text, std::size_t count);
+/// How a lobe is fitted, valid.
+TableFitOptions toFitOptions(const FitArguments& a);
+/// Whether fitIsotropicTable does it (warm starts along the table), not fitTable.
+bool isWarmStartedL3(const FitArguments& a);
+
+/// The command that gives the same bytes: every option that matters, none that does not (threads, paths).
+Provenance makeProvenance(const FitArguments& a);
+
+}  // namespace ltcfit::app

@@ -1,0 +1,36 @@
+// What the fits of tables print about the result: times and errors on unseen samples.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/fit_arguments.h"
+#include "report/score.h"
+
+namespace ltcfit::app {
+
+struct Times {
+  double cpu = 0.0;   ///< seconds, all threads
+  double wall = 0.0;  ///< seconds
+};
+
+/// CPU and wall time since it was made.
+class Stopwatch {
+ public:
+  Stopwatch();
+  Times elapsed() const;
+
+ private:
+  double cpu_;
+  double wall_;
+};
+
+/// Scores the table off-grid on samples the fit has not seen; null where the arguments ask for none. An
+/// isotropic table is read as its header is: shaders interpolate the inverse.
+std::unique_ptr<Score> scoreFit(const Table& table, const FitArguments& a);
+
+void printScore(const Score& score, const FitArguments& a);
+/// Adds "off_grid".
+void addScore(const Score& score, nlohmann::ordered_json* out);
+
+}  // namespace ltcfit::app

@@ -1,0 +1,182 @@
+#include "fit/table_fit.h"
+
+#include <omp.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <exception>
+#include <memory>
+
+#include "fit/target_lobe.h"
+#include "ltc/alignment.h"
+#include "ltc/ltc.h"
+
+namespace ltcfit {
+namespace {
+
+using Eigen::Matrix3d;
+
+Matrix3d unitThirdColumn(const Matrix3d& m) {
+  return normalized(m, MatrixNormalization::kThirdColumnUnit);
+}
+
+Matrix3d rounded(const Matrix3d& m) {
+  return unitThirdColumn(m).cast<float>().cast<double>();
+}
+
+// The matrix of a node, before rounding.
+Matrix3d nodeMatrix(const NodeSource& node, const JobResult& job) {
+  return projectOnFamily(turned(projectOnFamily(job.m, node.jobFamily), node.rotation), node.family);
+}
+
+}  // namespace
+
+std::string_view fitterName(Fitter fitter) {
+  switch (fitter) {
+    case Fitter::kSlicedWassersteinSgd:
+      return "sw-sgd";
+    case Fitter::kL3:
+      return "l3";
+    case Fitter::kSlicedWasserstein:
+      break;
+  }
+  return "sw";
+}
+
+bool TableFitOptions::isValid(std::string* error) const {
+  return sw.isValid(error) && sgd.isValid(error) && l3.nelderMead.isValid(error);
+}
+
+JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOptions& options) {
+  const std::unique_ptr<Lobe> lobe = makeTargetLobe(brdf, job.parameters);
+  const LobeMoments moments = computeMoments(*lobe);
+  JobResult r;
+  r.norm = moments.albedo;
+  r.fresnel = moments.fresnel;
+  r.momentError = moments.error;
+
+  const SlicedWassersteinTarget target = makeTarget(*lobe, job.family, options.sw);
+  ProjectedCdfLoss judge = makeLoss(target, options.sw.levels.back(), options.sw.seed);
+  r.startLoss = judge(target.start, nullptr);
+  Matrix3d m;
+  switch (options.fitter) {
+    case Fitter::kSlicedWasserstein: {
+      const SlicedWassersteinFit fit = fitSlicedWasserstein(target, target.start, options.sw, judge);
+      m = fit.m;
+      r.evaluations = fit.evaluations;
+      r.termination = fit.termination;
+      break;
+    }
+    case Fitter::kSlicedWassersteinSgd: {
+      const SgdResult fit = descendSlicedWasserstein(*lobe, target.start, options.sgd);
+      m = fit.m;
+      r.evaluations = options.sgd.steps;
+      r.termination = fit.finite ? Termination::kConverged : Termination::kFailure;
+      break;
+    }
+    case Fitter::kL3: {
+      const EntryFit fit = fitL3Entry(*lobe, moments.albedo, job.family, target.start, options.l3);
+      m = fit.m;
+      r.evaluations = fit.evaluations;
+      r.termination = fit.termination;
+      break;
+    }
+  }
+  r.fitted = m.allFinite() && m.determinant() != 0.0;
+  if (!r.fitted) return r;
+  if (m.determinant() < 0.0) m.col(1) *= -1.0;
+  m = unitThirdColumn(m);
+  r.loss = judge(m, nullptr);
+
+  const Alignment aligned = align(m);
+  r.m = aligned.m;
+  r.distanceBefore = aligned.distanceBefore;
+  r.distanceAfter = aligned.distanceAfter;
+  r.alignmentStrength = aligned.strength;
+  r.flipWouldBeCloser = aligned.flipWouldBeCloser;
+  r.alignedLoss = judge(r.m, nullptr);
+  const Matrix3d symmetric = projectOnFamily(r.m, familyOf(job.parameters));
+  r.symmetricLoss = symmetric == r.m ? r.alignedLoss : judge(symmetric, nullptr);
+  r.storedLoss = judge(rounded(symmetric), nullptr);
+  return r;
+}
+
+TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const TableFitOptions& options,
+                        JobStore* store, const TableFitProgress& progress) {
+  TableFitResult result;
+  const std::size_t n = plan.jobs.size();
+  result.jobs.resize(n);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < n; ++i) {
+    const JobResult* const known = store != nullptr ? store->find(i) : nullptr;
+    if (known != nullptr) {
+      result.jobs[i] = *known;
+    } else {
+      open.push_back(i);
+    }
+  }
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  std::size_t done = n - open.size();
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    bool stopped = false;
+#pragma omp critical(ltcfit_table_fit)
+    stopped = failure != nullptr;
+    if (stopped) continue;
+    const std::size_t i = open[k];
+    try {
+      result.jobs[i] = fitJob(plan.jobs[i], plan.info.brdf, options);
+#pragma omp critical(ltcfit_table_fit)
+      {
+        if (store != nullptr) store->add(i, result.jobs[i]);
+        if (progress) progress(++done, n);
+      }
+    } catch (...) {
+#pragma omp critical(ltcfit_table_fit)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+
+  if (symmetry == SymmetryMode::kAfter) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::unique_ptr<Lobe> lobe = makeTargetLobe(plan.info.brdf, plan.jobs[i].parameters);
+      ProjectedCdfLoss judge = makeLoss(makeTarget(*lobe, plan.jobs[i].family, options.sw),
+                                        options.sw.levels.back(), options.sw.seed);
+      const Matrix3d m = nodeMatrix(plan.nodes[i], result.jobs[plan.nodes[i].job]);
+      result.jobs[i].symmetricLoss = judge(m, nullptr);
+      result.jobs[i].storedLoss = judge(rounded(m), nullptr);
+    }
+  }
+
+  const std::vector<std::string>& channels = plan.info.channels;
+  for (const NodeSource& node : plan.nodes) {
+    const JobResult& job = result.jobs[node.job];
+    const Matrix3d m = rounded(nodeMatrix(node, job));
+    for (const std::string& c : channels) {
+      double value = 0.0;
+      if (c == "norm") {
+        value = job.norm;
+      } else if (c == "fresnel") {
+        value = job.fresnel;
+      } else {
+        value = m(c[1] - '0', c[2] - '0');
+      }
+      result.data.push_back(static_cast<float>(value));
+    }
+    const bool usable = job.fitted && m.determinant() > 0.0 && isInvertibleInFloat(m);
+    result.nodeUsable.push_back(usable);
+    result.unusable += usable ? 0 : 1;
+  }
+  for (const JobResult& job : result.jobs) {
+    result.notConverged += job.termination == Termination::kConverged ? 0 : 1;
+    result.weaklyAligned += job.alignmentStrength < kWeakAlignment ? 1 : 0;
+    result.evaluations += job.evaluations;
+    result.largestMomentError = std::max(result.largestMomentError, job.momentError);
+  }
+  return result;
+}
+
+}  // namespace ltcfit

@@ -1,0 +1,150 @@
+#include "fit/table_plan.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+namespace ltcfit {
+namespace {
+
+constexpr double kHalfPi = 0.5 * std::numbers::pi;
+constexpr std::size_t kSmallestAxis = 2;
+constexpr std::size_t kLargestIsotropicAxis = 1024;
+constexpr std::size_t kLargestAnisotropicAxis = 64;
+constexpr double kSmallestFloor = 1e-5;
+
+// A number for a message, without trailing zeros or rounding to 0.
+std::string plain(double v) {
+  std::ostringstream out;
+  out << v;
+  return out.str();
+}
+
+bool checkNodes(const char* name, std::size_t n, std::size_t largest, std::string* error) {
+  if (n >= kSmallestAxis && n <= largest) return true;
+  *error = "--size: " + std::to_string(n) + " " + name + " nodes, need " + std::to_string(kSmallestAxis) +
+           " to " + std::to_string(largest);
+  return false;
+}
+
+// `second`: alpha of the node after the first.
+bool checkFloor(double floor, double second, std::string* error) {
+  if (floor >= kSmallestFloor && floor < second) return true;
+  *error = "--alpha-floor " + plain(floor) + ": need " + plain(kSmallestFloor) + " up to (not including) " +
+           plain(second) + ", the alpha of the second node";
+  return false;
+}
+
+// `before`: theta of the node before the last.
+bool checkThetaMax(double thetaMax, double before, std::string* error) {
+  if (thetaMax > before && thetaMax <= kHalfPi) return true;
+  *error = "--theta-max " + plain(thetaMax) + ": need more than " + plain(before) +
+           " (the node before the last) up to pi/2";
+  return false;
+}
+
+AxisMap angleMap(IsotropicAxes axes) {
+  return axes == IsotropicAxes::k2017 ? AxisMap::kSqrtOneMinusCos : AxisMap::kLinear;
+}
+
+Axis thetaAxis(AxisMap map, std::size_t nodes, double thetaMax) {
+  Axis axis = makeAxis("theta", "rad", map, nodes, 0.0, kHalfPi);
+  axis.values.back() = std::min(axis.values.back(), thetaMax);
+  return axis;
+}
+
+}  // namespace
+
+bool IsotropicTableOptions::isValid(std::string* error) const {
+  if (!checkNodes("theta", thetaNodes, kLargestIsotropicAxis, error) ||
+      !checkNodes("alpha", alphaNodes, kLargestIsotropicAxis, error)) {
+    return false;
+  }
+  const Axis theta = makeAxis("theta", "rad", angleMap(axes), thetaNodes, 0.0, kHalfPi);
+  const Axis alpha = makeAxis("alpha", "1", AxisMap::kSqrt, alphaNodes, 0.0, 1.0);
+  return checkFloor(alphaFloor, alpha.values[1], error) &&
+         checkThetaMax(thetaMax, theta.values[thetaNodes - 2], error);
+}
+
+bool AnisotropicTableOptions::isValid(std::string* error) const {
+  if (!checkNodes("alpha", alphaNodes, kLargestAnisotropicAxis, error) ||
+      !checkNodes("lambda", lambdaNodes, kLargestAnisotropicAxis, error) ||
+      !checkNodes("theta", thetaNodes, kLargestAnisotropicAxis, error) ||
+      !checkNodes("phi", phiNodes, kLargestAnisotropicAxis, error)) {
+    return false;
+  }
+  return checkFloor(alphaFloor, 1.0 / static_cast<double>(alphaNodes - 1), error) &&
+         checkThetaMax(thetaMax,
+                       kHalfPi * static_cast<double>(thetaNodes - 2) / static_cast<double>(thetaNodes - 1),
+                       error);
+}
+
+MatrixFamily familyOf(const LobeParameters& p) {
+  if (p.theta == 0.0) return p.alphaX == p.alphaY ? MatrixFamily::kRotational : MatrixFamily::kMirrorXY;
+  if (p.phi == 0.0) return MatrixFamily::kMirrorY;
+  if (p.phi == kHalfPi) return MatrixFamily::kMirrorX;
+  return MatrixFamily::kGeneral;
+}
+
+Eigen::Matrix3d turned(const Eigen::Matrix3d& m, double angle) {
+  if (angle == 0.0) return m;
+  const Eigen::Matrix3d r = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return r * m * r.transpose();
+}
+
+TablePlan planIsotropicTable(const IsotropicTableOptions& o) {
+  TablePlan plan;
+  plan.info.axes = {thetaAxis(angleMap(o.axes), o.thetaNodes, o.thetaMax),
+                    makeAxis("alpha", "1", AxisMap::kSqrt, o.alphaNodes, 0.0, 1.0, o.alphaFloor)};
+  plan.info.stores = MatrixStorage::kM;
+  plan.info.normalization = MatrixNormalization::kThirdColumnUnit;
+  plan.info.channels = {"m00", "m02", "m11", "m20", "m22", "norm", "fresnel"};
+  plan.info.alphaFloor = o.alphaFloor;
+  for (const double theta : plan.info.axes[0].values) {
+    for (const double alpha : plan.info.axes[1].values) {
+      const LobeParameters p{alpha, alpha, theta, 0.0};
+      plan.nodes.push_back({plan.jobs.size(), 0.0, familyOf(p), familyOf(p)});
+      plan.jobs.push_back({p, familyOf(p)});
+    }
+  }
+  return plan;
+}
+
+TablePlan planAnisotropicTable(const AnisotropicTableOptions& o, SymmetryMode symmetry) {
+  TablePlan plan;
+  plan.info.axes = {makeAxis("alpha", "1", AxisMap::kLinear, o.alphaNodes, 0.0, 1.0, o.alphaFloor),
+                    makeAxis("lambda", "1", AxisMap::kLinear, o.lambdaNodes, 0.0, 1.0),
+                    thetaAxis(AxisMap::kLinear, o.thetaNodes, o.thetaMax),
+                    makeAxis("phi", "rad", AxisMap::kLinear, o.phiNodes, 0.0, kHalfPi)};
+  plan.info.stores = MatrixStorage::kM;
+  plan.info.normalization = MatrixNormalization::kThirdColumnUnit;
+  plan.info.channels = {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22", "norm", "fresnel"};
+  plan.info.alphaFloor = o.alphaFloor;
+
+  // jobs by the parameters that a lobe really depends on, at the first node that has them
+  std::map<std::tuple<double, double, double, double>, std::size_t> jobOf;
+  for (const double alpha : plan.info.axes[0].values) {
+    for (const double lambda : plan.info.axes[1].values) {
+      for (const double theta : plan.info.axes[2].values) {
+        for (const double phi : plan.info.axes[3].values) {
+          const LobeParameters node{alpha, std::max(alpha * lambda, o.alphaFloor), theta, phi};
+          LobeParameters lobe = node;
+          const bool isotropic = node.alphaX == node.alphaY;
+          if (isotropic || theta == 0.0) lobe.phi = 0.0;
+          if (symmetry == SymmetryMode::kAfter) plan.jobs.push_back({node, MatrixFamily::kGeneral});
+          const auto [found, isNew] =
+              jobOf.try_emplace({lobe.alphaX, lobe.alphaY, lobe.theta, lobe.phi},
+                                plan.jobs.size() - (symmetry == SymmetryMode::kAfter));
+          if (isNew && symmetry == SymmetryMode::kDuring) plan.jobs.push_back({lobe, familyOf(lobe)});
+          // the view from 45 degrees above an isotropic surface has no mirror symmetry in x or y: kGeneral
+          plan.nodes.push_back({found->second, isotropic ? phi : 0.0, familyOf(lobe), familyOf(node)});
+        }
+      }
+    }
+  }
+  return plan;
+}
+
+}  // namespace ltcfit

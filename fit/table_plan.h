@@ -1,0 +1,83 @@
+// Which lobes a table needs, and how its nodes follow from them.
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "fit/matrix_family.h"
+#include "ltc/table.h"
+
+namespace ltcfit {
+
+/// Axes of an isotropic table: the angle axis of the paper (theta, linear) or of the published table
+/// (sqrt(1 - cos theta)); alpha by its square root in both.
+enum class IsotropicAxes { k2016, k2017 };
+
+struct IsotropicTableOptions {
+  std::size_t thetaNodes = 64;
+  std::size_t alphaNodes = 64;
+  IsotropicAxes axes = IsotropicAxes::k2017;
+  double alphaFloor = 1e-4;  ///< alpha of the node at sqrt(alpha) = 0, in [1e-5, 1)
+  /// theta of the last node, radians, at most pi/2. Grazing view needs no clamp; the 2017 table has 1.57.
+  double thetaMax = 0.5 * std::numbers::pi;
+
+  /// False with a message naming the option, its value and its range.
+  bool isValid(std::string* error) const;
+};
+
+struct AnisotropicTableOptions {
+  std::size_t alphaNodes = 8;
+  std::size_t lambdaNodes = 8;
+  std::size_t thetaNodes = 8;
+  std::size_t phiNodes = 8;
+  double alphaFloor = 1e-4;  ///< smallest alpha_x and alpha_y, in [1e-5, 1)
+  double thetaMax = 0.5 * std::numbers::pi;
+
+  bool isValid(std::string* error) const;
+};
+
+/// How the lobe's symmetries come into the table.
+enum class SymmetryMode {
+  kDuring,  ///< each entry is sought among the matrices of its symmetry; equal lobes are fitted once
+  kAfter,   ///< all entries are fitted freely, symmetry is enforced on the table (KT et al. 2022, eq. 16)
+};
+
+/// One fit.
+struct LobeJob {
+  LobeParameters parameters;
+  MatrixFamily family;  ///< among which its matrix is sought
+};
+
+/// Where the matrix of a node comes from: T = Rz(rotation) M Rz(-rotation) of a job's M, then the nearest
+/// member of `family`.
+struct NodeSource {
+  std::size_t job;
+  double rotation = 0.0;   ///< radians
+  MatrixFamily jobFamily;  ///< symmetry of the job's lobe
+  MatrixFamily family;     ///< symmetry of the node's lobe
+};
+
+struct TablePlan {
+  TableInfo info;  ///< without provenance
+  std::vector<LobeJob> jobs;
+  std::vector<NodeSource> nodes;  ///< in the order of the table's data
+};
+
+/// `options` must be valid.
+///
+/// Isotropic: every node is a job, mirrored by the plane of incidence, at normal view also turned about z.
+/// Anisotropic, kDuring: one job for all phi at normal view; where alpha_x = alpha_y (lambda = 1, and where
+/// the floor makes it so) one for all phi, which are turned copies: T(theta, phi) = Rz(phi) T(theta, 0)
+/// Rz(-phi). The rows phi = 0 and pi/2 have the mirror symmetry of eq. 16.
+TablePlan planIsotropicTable(const IsotropicTableOptions& options);
+TablePlan planAnisotropicTable(const AnisotropicTableOptions& options, SymmetryMode symmetry);
+
+/// The symmetry of a lobe, from its parameters: exact comparisons, phi in [0, pi/2].
+MatrixFamily familyOf(const LobeParameters& parameters);
+
+/// A matrix turned about the normal: Rz(angle) M Rz(-angle).
+Eigen::Matrix3d turned(const Eigen::Matrix3d& m, double angle);
+
+}  // namespace ltcfit
