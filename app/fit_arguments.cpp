@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/commands.h"
@@ -22,15 +23,15 @@ std::string defaultPreset(const FitArguments& a) {
   return a.kind == FitKind::kIsotropic ? "fast" : "standard";
 }
 
-std::string presetOf(const FitArguments& a) {
-  return a.preset.empty() ? defaultPreset(a) : a.preset;
-}
-
 [[noreturn]] void refuse(const std::string& message) {
   throw std::invalid_argument(message);
 }
 
 }  // namespace
+
+std::string presetOf(const FitArguments& a) {
+  return a.preset.empty() ? defaultPreset(a) : a.preset;
+}
 
 void addFitterOptions(CLI::App& command, FitArguments& a) {
   if (a.kind == FitKind::kIsotropic) a.leakWeight = kIsotropicLeakWeight;
@@ -104,6 +105,7 @@ void checkFitArguments(const CLI::App& command, const FitArguments& a) {
     const CLI::Option* const found = command.get_option_no_throw(option);
     return found != nullptr && found->count() > 0;
   };
+  if (!std::isfinite(a.leakWeight)) refuse("--leak-weight must be a number in 0..100");
   const bool sw = a.fitter == "sw";
   const bool sgd = a.fitter == "sw-sgd";
   const bool l3 = a.fitter == "l3";

@@ -46,6 +46,8 @@ void addTableOptions(CLI::App& command, FitArguments& a);
 void checkFitArguments(const CLI::App& command, const FitArguments& a);
 /// "64x32" to {64, 32}, `count` numbers; std::invalid_argument otherwise.
 std::vector<std::size_t> parseSize(const std::string& text, std::size_t count);
+/// The preset asked for, or the fitter's default.
+std::string presetOf(const FitArguments& a);
 /// How a lobe is fitted, valid.
 TableFitOptions toFitOptions(const FitArguments& a);
 /// Whether fitIsotropicTable does it (warm starts along the table), not fitTable.

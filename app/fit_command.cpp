@@ -1,4 +1,5 @@
 // ltcfit fit: iso, aniso, entry.
+#include <filesystem>
 #include <memory>
 
 #include "app/commands.h"
@@ -9,8 +10,14 @@ namespace ltcfit::app {
 namespace {
 
 void checkOutputs(const FitArguments& a) {
-  if (a.reportPath == a.output) throw InputError(a.output + ": --output and --report name the same file");
   checkWritable(a.output);
+  const auto file = [](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  if (!a.reportPath.empty() &&
+      (file(a.reportPath) == file(a.output) || file(a.reportPath) == file(a.output + ".part"))) {
+    throw InputError(a.reportPath + ": --output (or its .part) and --report name the same file");
+  }
   if (!a.reportPath.empty()) checkWritable(a.reportPath);
 }
 

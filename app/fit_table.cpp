@@ -48,7 +48,10 @@ std::string reportCsv(const TablePlan& plan, const TableFitResult& result) {
   std::string out =
       "alpha_x,alpha_y,theta,phi,family,termination,evaluations,start_sw1,fit_sw1,aligned_sw1,symmetric_sw1,"
       "stored_sw1,alignment_before,alignment_after,alignment_strength,flip_closer,norm,fresnel,moment_error,"
-      "fitted\n";
+      "usable\n";
+  std::vector<bool> usable(plan.jobs.size(), true);
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
+    if (!result.nodeUsable[n]) usable[plan.nodes[n].job] = false;
   for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
     const LobeParameters& p = plan.jobs[i].parameters;
     const JobResult& r = result.jobs[i];
@@ -57,7 +60,7 @@ std::string reportCsv(const TablePlan& plan, const TableFitResult& result) {
                    p.theta, p.phi, familyLabel(plan.jobs[i].family), terminationName(r.termination),
                    r.evaluations, r.startLoss, r.loss, r.alignedLoss, r.symmetricLoss, r.storedLoss,
                    r.distanceBefore, r.distanceAfter, r.alignmentStrength, r.flipWouldBeCloser, r.norm,
-                   r.fresnel, r.momentError, r.fitted);
+                   r.fresnel, r.momentError, static_cast<bool>(usable[i]));
   }
   return out;
 }
@@ -106,16 +109,24 @@ nlohmann::ordered_json toJson(const FitArguments& a, const TablePlan& plan, cons
 // Where finished lobes are kept; null for outputs that are no files. A checkpoint that is there without
 // --resume is not overwritten: it may be days of work.
 std::unique_ptr<Checkpoint> openCheckpoint(const FitArguments& a, const TablePlan& plan) {
-  std::error_code ignored;
-  if (std::filesystem::exists(a.output, ignored) && !std::filesystem::is_regular_file(a.output, ignored)) {
+  if (isStream(a.output)) {
     if (a.resume) throw InputError("--resume: " + a.output + " is not a file");
     return nullptr;
   }
+  std::error_code ignored;
   const std::string path = a.output + ".part";
   if (!a.resume && std::filesystem::exists(path, ignored)) {
-    throw InputError(path + ": left by an interrupted run; go on with --resume, or delete it to start anew");
+    throw InputError(path +
+                     ": of a run that was interrupted or is still going; --resume goes on with it, without "
+                     "that file a run "
+                     "starts anew");
   }
-  const std::string fingerprint = makeProvenance(a).command + ", ltcfit " LTCFIT_VERSION;
+#ifdef __FMA__
+  constexpr const char* kBuild = " native";
+#else
+  constexpr const char* kBuild = "";
+#endif
+  const std::string fingerprint = makeProvenance(a).command + ", ltcfit " LTCFIT_VERSION + kBuild;
   try {
     return std::make_unique<Checkpoint>(path, fingerprint, plan.jobs.size());
   } catch (const std::invalid_argument& error) {
@@ -128,7 +139,8 @@ std::unique_ptr<Checkpoint> openCheckpoint(const FitArguments& a, const TablePla
 int refuseUnusable(std::size_t unusable, const FitArguments& a) {
   if (unusable == 0) return kExitOk;
   fmt::print(stderr,
-             "ltcfit: {} entries are unusable (singular, or worse than no light): nothing was written{}\n",
+             "ltcfit: {} entries are unusable (no inverse in float32, or worse than no light): no table was "
+             "written{}\n",
              unusable, a.reportPath.empty() ? "; --report FILE.csv lists them" : "");
   return kExitQuality;
 }
@@ -136,6 +148,12 @@ int refuseUnusable(std::size_t unusable, const FitArguments& a) {
 int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
   const TableFitOptions options = toFitOptions(a);
   const SymmetryMode symmetry = a.symmetry == "after" ? SymmetryMode::kAfter : SymmetryMode::kDuring;
+  try {
+    // the axes, before the work and not after it
+    const Table axes(plan.info, std::vector<float>(plan.nodes.size() * plan.info.channels.size(), 0.0f));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(std::string("--theta-max or --alpha-floor: ") + error.what());
+  }
   const std::unique_ptr<Checkpoint> checkpoint = openCheckpoint(a, plan);
   const std::size_t resumed = checkpoint ? checkpoint->size() : 0;
   const Stopwatch watch;
@@ -154,7 +172,8 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
     table = std::make_unique<Table>(info, result.data);
     writeFileAtomically(a.output, tableToJson(*table));
   }
-  if (checkpoint) checkpoint->remove();
+  // what made an unusable table stays, for --resume --report
+  if (checkpoint && table) checkpoint->remove();
   const std::unique_ptr<Score> score = table ? scoreFit(*table, a) : nullptr;
   if (a.json) {
     nlohmann::ordered_json out = toJson(a, plan, result, times, resumed);

@@ -19,6 +19,7 @@ struct ScoreArguments {
   std::string against;
   std::string points = "nodes";
   std::string storedAs = "file";
+  std::string reportPath;
   std::int64_t count = 512;
   std::int64_t seed = 1;
   double minAlpha = 0.0;
@@ -101,7 +102,43 @@ nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
           {"metrics", metrics}};
 }
 
+// One line a point; the second table's columns start with "against_".
+std::string reportCsv(const std::vector<Score>& scores) {
+  std::string out = "alpha_x,alpha_y,theta,phi";
+  for (std::size_t t = 0; t < scores.size(); ++t) {
+    for (std::size_t m = 0; m < kMetricCount; ++m) {
+      if (scores[t].present[m])
+        fmt::format_to(std::back_inserter(out), ",{}{}", t > 0 ? "against_" : "",
+                       metricName(static_cast<Metric>(m)));
+    }
+  }
+  out += "\n";
+  for (std::size_t i = 0; i < scores[0].all.size(); ++i) {
+    const LobeParameters& p = scores[0].all[i].parameters;
+    fmt::format_to(std::back_inserter(out), "{},{},{},{}", p.alphaX, p.alphaY, p.theta, p.phi);
+    for (const Score& score : scores) {
+      for (std::size_t m = 0; m < kMetricCount; ++m) {
+        if (score.present[m]) fmt::format_to(std::back_inserter(out), ",{}", score.all[i].metrics.value[m]);
+      }
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+// Largest ratio of SW1 at one point, which the ratio of the maxima hides; NaN without finite ratios.
+double worstRatio(const Score& ours, const Score& theirs) {
+  double worst = std::nan("");
+  for (std::size_t i = 0; i < ours.all.size(); ++i) {
+    const double ratio = ours.all[i].metrics.get(Metric::kSw1) / theirs.all[i].metrics.get(Metric::kSw1);
+    if (std::isfinite(ratio)) worst = std::fmax(worst, ratio);
+  }
+  return worst;
+}
+
 int scoreCommand(const ScoreArguments& a) {
+  if (!std::isfinite(a.minAlpha)) throw InputError("--min-alpha must be a number in 0..1");
+  if (!a.reportPath.empty()) checkWritable(a.reportPath);
   const Table table = readForScore(a, a.table);
   std::vector<Table> others;
   if (!a.against.empty()) {
@@ -133,13 +170,17 @@ int scoreCommand(const ScoreArguments& a) {
   }
   if (scores[0].points == 0) throw InputError(fmt::format("--min-alpha {}: no point is left", a.minAlpha));
 
+  if (!a.reportPath.empty()) writeFileAtomically(a.reportPath, reportCsv(scores));
   if (a.json) {
     nlohmann::ordered_json out{{"points", a.points},           {"count", scores[0].points},
                                {"min_alpha", a.minAlpha},      {"seed", a.seed},
                                {"samples", a.metrics.samples}, {"directions", a.metrics.directions},
                                {"quads", a.metrics.quads},     {"lights", a.metrics.lights}};
     out["tables"] = {toJson(a.table, scores[0])};
-    if (scores.size() > 1) out["tables"].push_back(toJson(a.against, scores[1]));
+    if (scores.size() > 1) {
+      out["tables"].push_back(toJson(a.against, scores[1]));
+      out["worst_sw1_ratio"] = worstRatio(scores[0], scores[1]);
+    }
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return kExitOk;
   }
@@ -153,6 +194,7 @@ int scoreCommand(const ScoreArguments& a) {
     fmt::print("\n{} ({})\n", a.against, describe(others[0]));
     printSummaries(scores[1]);
     printRatios(scores[0], scores[1]);
+    fmt::print("largest ratio of SW1 at one point: {:.3f}\n", worstRatio(scores[0], scores[1]));
     if (scores[1].otherParameters > 0) {
       fmt::print(
           "{} nodes of the second table were fitted at another theta or alpha (its clamps): there L3 and "
@@ -192,7 +234,9 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--count", a->count, "Number of points; 0 = all nodes")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{100000000}))
       ->capture_default_str();
-  command->add_option("--min-alpha", a->minAlpha, "Leave out points with a smaller GGX alpha; 0..1")
+  command
+      ->add_option("--min-alpha", a->minAlpha,
+                   "Leave out points with a smaller GGX alpha (the larger of alpha_x and alpha_y); 0..1")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--seed", a->seed, "Seed of points, samples and lights, 0..2^53")
@@ -212,6 +256,8 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
       ->capture_default_str();
   command->add_flag("--interpolation", a->interpolation,
                     "Also fit each point directly, as the table was, and report the interpolation ratio");
+  command->add_option("--report", a->reportPath, "Also write a CSV with one line for each point")
+      ->type_name("FILE.csv");
   command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the result")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

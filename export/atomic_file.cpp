@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -60,6 +61,21 @@ void writeThrough(const std::string& path, std::string_view bytes) {
   if (file.close() != 0) fail(path, "cannot write");
 }
 
+// The descriptor that a path like /dev/stdout or /dev/fd/3 stands for, -1 for other paths. Bytes go through
+// it: a file behind it belongs to whoever opened it, who may be in the middle of it.
+int ownDescriptor(const std::string& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view prefix : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (!path.starts_with(prefix)) continue;
+    int fd = -1;
+    const char* const end = path.data() + path.size();
+    const auto parsed = std::from_chars(path.data() + prefix.size(), end, fd);
+    if (parsed.ec == std::errc() && parsed.ptr == end && ::fcntl(fd, F_GETFD) >= 0) return fd;
+  }
+  return -1;
+}
+
 // Gives the complete, unnamed file a name; false where that is not possible (no /proc).
 bool linkUnnamed(int fd, const std::string& name) {
   const std::string self = "/proc/self/fd/" + std::to_string(fd);
@@ -70,6 +86,11 @@ bool linkUnnamed(int fd, const std::string& name) {
 }  // namespace
 
 void writeFileAtomically(const std::string& path, std::string_view bytes) {
+  const int own = ownDescriptor(path);
+  if (own >= 0) {
+    std::fflush(stdout);
+    return writeAll(own, bytes, path);
+  }
   std::error_code error;
   // the file that a link points to is replaced, not the link
   std::string target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error).string() : path;
@@ -112,6 +133,7 @@ void writeFileAtomically(const std::string& path, std::string_view bytes) {
 void checkWritable(const std::string& path) {
   std::error_code ignored;
   if (path.empty()) throw InputError("the output path is empty");
+  if (ownDescriptor(path) >= 0) return;
   if (fs::is_directory(path, ignored)) throw InputError(path + ": is a folder, not a file");
   const fs::path folder = folderOf(path);
   if (!fs::is_directory(folder, ignored))
@@ -142,6 +164,11 @@ std::string readFile(const std::string& path, std::uint64_t limit) {
   if (bad) throw InputError(path + ": cannot read: " + std::strerror(reason));
   if (bytes.size() > limit) throw InputError(path + ": larger than " + std::to_string(limit) + " bytes");
   return bytes;
+}
+
+bool isStream(const std::string& path) {
+  std::error_code ignored;
+  return ownDescriptor(path) >= 0 || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored));
 }
 
 }  // namespace ltcfit

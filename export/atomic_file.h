@@ -34,6 +34,9 @@ void writeFileAtomically(const std::string& path, std::string_view bytes);
 /// folder itself): asked before a long run, not after it.
 void checkWritable(const std::string& path);
 
+/// Whether bytes written to `path` go through it (a device, a pipe, /dev/stdout) instead of replacing a file.
+bool isStream(const std::string& path);
+
 /// The whole file; throws InputError, also for files of more than `limit` bytes.
 std::string readFile(const std::string& path, std::uint64_t limit = std::uint64_t{1} << 32);
 

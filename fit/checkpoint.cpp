@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
@@ -92,7 +92,11 @@ bool parseLine(std::string_view line, std::size_t jobs, std::size_t* job, Number
     if (number.ec != std::errc()) return false;
     p = number.ptr;
   }
-  return p == last && (*numbers)[21] >= 0.0 && (*numbers)[21] <= 2.0 && std::abs((*numbers)[20]) < 2e9;
+  const Numbers& n = *numbers;
+  const bool finite = std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); });
+  // norm and Fresnel are albedos; evaluations and termination go into integers
+  return p == last && finite && n[17] >= 0.0 && n[17] <= 1.001 && n[18] >= 0.0 && n[18] <= 1.001 &&
+         n[20] >= 0.0 && n[20] < 2e9 && n[21] >= 0.0 && n[21] <= 2.0;
 }
 
 void writeAll(int file, const std::string& path, std::string_view text) {
@@ -108,10 +112,18 @@ void writeAll(int file, const std::string& path, std::string_view text) {
 
 Checkpoint::Checkpoint(std::string path, const std::string& fingerprint, std::size_t jobs)
     : path_(std::move(path)) {
-  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  // without O_NONBLOCK a pipe of that name would wait for ever
+  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   if (file_ < 0) throw std::runtime_error(path_ + ": " + std::strerror(errno));
   try {
+    struct stat opened {};
+    struct stat named {};
+    if (::fstat(file_, &opened) != 0 || !S_ISREG(opened.st_mode))
+      throw std::invalid_argument(path_ + ": not a file");
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0) throw std::runtime_error(path_ + ": in use by another run");
+    // a run that ended in between has deleted the file that was opened
+    if (::stat(path_.c_str(), &named) != 0 || named.st_ino != opened.st_ino || named.st_dev != opened.st_dev)
+      throw std::runtime_error(path_ + ": another run has just ended; try again");
     read(std::string(kMagic) + std::to_string(jobs) + " " + fingerprint + "\n", jobs);
   } catch (...) {
     ::close(file_);
@@ -121,9 +133,11 @@ Checkpoint::Checkpoint(std::string path, const std::string& fingerprint, std::si
 
 void Checkpoint::read(const std::string& header, std::size_t jobs) {
   std::string text;
-  {
-    std::ifstream in(path_, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), {});
+  std::array<char, 65536> buffer{};
+  for (ssize_t n = 0; (n = ::read(file_, buffer.data(), buffer.size())) != 0;) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw std::runtime_error(path_ + ": " + std::strerror(errno));
+    text.append(buffer.data(), static_cast<std::size_t>(n));
   }
   // a run killed before its first line was whole leaves a part of the header: the same as nothing
   const bool nothing = text.size() < header.size() && header.compare(0, text.size(), text) == 0;
@@ -169,9 +183,9 @@ void Checkpoint::add(std::size_t job, const JobResult& result) {
 }
 
 void Checkpoint::remove() {
+  ::unlink(path_.c_str());  // before the lock goes with the descriptor
   if (file_ >= 0) ::close(file_);
   file_ = -1;
-  ::unlink(path_.c_str());
 }
 
 }  // namespace ltcfit

@@ -98,15 +98,25 @@ Eigen::VectorXd relativeGradient(MatrixFamily family, const Matrix3d& base, cons
   return g;
 }
 
-Chart plainChart(MatrixFamily family, const Matrix3d& base) {
-  const auto n = static_cast<Eigen::Index>(familyBasis(family).size());
-  return {family, base,
-          Eigen::MatrixXd::Identity(n, n) / std::sqrt(kCurvatureFactor * std::max(width(base), 1e-12))};
+// A first guess of the curvatures. What moves the lobe, column 2 of P, moves it by its own width for a step
+// of 1: where the target is many widths away, as from a bad start, that many are one step.
+Chart plainChart(const SlicedWassersteinTarget& target, const Matrix3d& base) {
+  const std::vector<Matrix3d>& basis = familyBasis(target.family);
+  const double w = std::max(width(base), 1e-12);
+  const double away = (base.col(2).normalized() - target.start.col(2).normalized()).norm() / w;
+  Eigen::VectorXd scale(static_cast<Eigen::Index>(basis.size()));
+  for (std::size_t k = 0; k < basis.size(); ++k) {
+    const bool moves = basis[k].col(2).head<2>().norm() > 0.5;
+    scale[static_cast<Eigen::Index>(k)] =
+        std::sqrt((moves ? std::max(1.0, away) : 1.0) / (kCurvatureFactor * w));
+  }
+  return {target.family, base, scale.asDiagonal()};
 }
 
 // By central differences of the gradient. The loss is only piecewise smooth, hence the wide step and the
 // floor on the curvatures; BFGS corrects the rest.
-Chart hessianChart(const Objective& objective, MatrixFamily family, const Matrix3d& base) {
+Chart hessianChart(const Objective& objective, const SlicedWassersteinTarget& target, const Matrix3d& base) {
+  const MatrixFamily family = target.family;
   const std::size_t n = familyBasis(family).size();
   Eigen::MatrixXd hessian(n, n);
   std::vector<double> p(n, 0.0);
@@ -124,7 +134,7 @@ Chart hessianChart(const Objective& objective, MatrixFamily family, const Matrix
   hessian = (0.25 / kHessianStep * (hessian + hessian.transpose())).eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(hessian);
   const double most = eigen.eigenvalues().cwiseAbs().maxCoeff();
-  if (!(most > 0.0)) return plainChart(family, base);
+  if (!(most > 0.0)) return plainChart(target, base);
   const Eigen::VectorXd curvature = eigen.eigenvalues().cwiseAbs().cwiseMax(kSmallestCurvature * most);
   return {family, base, eigen.eigenvectors() * curvature.cwiseSqrt().cwiseInverse().asDiagonal()};
 }
@@ -221,7 +231,12 @@ SlicedWassersteinFit fitSlicedWasserstein(const SlicedWassersteinTarget& target,
     return result.cost < (1.0 - kRoundGain) * result.startCost;
   };
   const auto rounds = [&](const Objective& objective) {
-    for (int k = 0; k < kMostRounds && round(objective, plainChart(target.family, m)); ++k) {
+    for (int k = 0; k < kMostRounds && round(objective, plainChart(target, m)); ++k) {
+    }
+    // a descent from far away may end in a flat place: begin again at the lobe itself
+    if (objective(m, nullptr) <= objective(target.start, nullptr)) return;
+    m = target.start;
+    for (int k = 0; k < kMostRounds && round(objective, plainChart(target, m)); ++k) {
     }
   };
   std::optional<Chart> chart;
@@ -229,15 +244,21 @@ SlicedWassersteinFit fitSlicedWasserstein(const SlicedWassersteinTarget& target,
     ProjectedCdfLoss coarse = makeLoss(target, options.levels[level], options.seed);
     const Objective objective{coarse, leak};
     rounds(objective);
-    chart = hessianChart(objective, target.family, m);
+    chart = hessianChart(objective, target, m);
     fit.evaluations += 2 * static_cast<int>(chart->a.cols());
   }
   const Objective objective{finest, leak};
-  if (chart) {
+  if (chart && objective(m, nullptr) <= objective(target.start, nullptr)) {
     chart->base = m;
     round(objective, *chart);
   } else {
+    // no coarse level, or its few samples misled it, as where tails carry the loss (alpha = 1e-5 at grazing
+    // view)
+    m = chart ? target.start : m;
     rounds(objective);
+  }
+  for (int k = 0; k < kMostRounds && fit.termination != Termination::kConverged; ++k) {
+    if (!round(objective, plainChart(target, m))) break;
   }
   fit.loss = finest(m, nullptr);
   fit.m = m;

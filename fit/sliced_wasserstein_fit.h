@@ -59,9 +59,10 @@ ProjectedCdfLoss makeLoss(const SlicedWassersteinTarget& target, const SlicedWas
                           std::uint64_t seed);
 
 /// Minimises the loss over the matrices of the target's family from `start`: target.start, or any other
-/// matrix of the family with det != 0, as the loss has a gradient wherever the two lobes are. After each
-/// descent the parametrisation M (I + P) is taken anew about the matrix found, until that gains nothing, so
-/// that a start of another scale costs only time. `finest` is makeLoss of the last level.
+/// matrix of the family with det != 0. After each descent the parametrisation M (I + P) is taken anew about
+/// the matrix found, until that gains nothing, so that a start of another scale costs only time; where a
+/// descent from far away ends above the loss of target.start, it begins again there. `finest` is makeLoss of
+/// the last level.
 SlicedWassersteinFit fitSlicedWasserstein(const SlicedWassersteinTarget& target, const Eigen::Matrix3d& start,
                                           const SlicedWassersteinFitOptions& options,
                                           ProjectedCdfLoss& finest);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
+#include <optional>
 
 #include "fit/target_lobe.h"
 #include "ltc/alignment.h"
@@ -27,6 +28,37 @@ Matrix3d rounded(const Matrix3d& m) {
 // The matrix of a node, before rounding.
 Matrix3d nodeMatrix(const NodeSource& node, const JobResult& job) {
   return projectOnFamily(turned(projectOnFamily(job.m, node.jobFamily), node.rotation), node.family);
+}
+
+// body(i) for all i below n, on some threads; what it returns is called, one at a time. The first exception
+// ends the loop and comes out of it (none may leave an OpenMP region).
+template <class Body>
+void parallelFor(std::size_t n, int threads, const Body& body) {
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < n; ++i) {
+    bool stop = false;
+#pragma omp critical(ltcfit_parallel_for)
+    stop = failure != nullptr;
+    if (stop) continue;
+    std::optional<decltype(body(i))> after;
+    std::exception_ptr thrown;
+    try {
+      after.emplace(body(i));
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+#pragma omp critical(ltcfit_parallel_for)
+    {
+      try {
+        if (thrown) std::rethrow_exception(thrown);
+        if (!failure) (*after)();
+      } catch (...) {
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace
@@ -55,7 +87,10 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOption
   r.fresnel = moments.fresnel;
   r.momentError = moments.error;
 
-  const SlicedWassersteinTarget target = makeTarget(*lobe, job.family, options.sw);
+  // fewer slices do for a matrix of the family; a stochastic descent leaves it
+  const MatrixFamily judged =
+      options.fitter == Fitter::kSlicedWassersteinSgd ? MatrixFamily::kGeneral : job.family;
+  const SlicedWassersteinTarget target = makeTarget(*lobe, judged, options.sw);
   ProjectedCdfLoss judge = makeLoss(target, options.sw.levels.back(), options.sw.seed);
   r.startLoss = judge(target.start, nullptr);
   Matrix3d m;
@@ -117,38 +152,24 @@ TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const Tabl
   }
   const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   std::size_t done = n - open.size();
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t k = 0; k < open.size(); ++k) {
-    bool stopped = false;
-#pragma omp critical(ltcfit_table_fit)
-    stopped = failure != nullptr;
-    if (stopped) continue;
+  parallelFor(open.size(), threads, [&](std::size_t k) {
     const std::size_t i = open[k];
-    try {
-      result.jobs[i] = fitJob(plan.jobs[i], plan.info.brdf, options);
-#pragma omp critical(ltcfit_table_fit)
-      {
-        if (store != nullptr) store->add(i, result.jobs[i]);
-        if (progress) progress(++done, n);
-      }
-    } catch (...) {
-#pragma omp critical(ltcfit_table_fit)
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-
+    result.jobs[i] = fitJob(plan.jobs[i], plan.info.brdf, options);
+    return [&, i] {
+      if (store != nullptr) store->add(i, result.jobs[i]);
+      if (progress) progress(++done, n);
+    };
+  });
   if (symmetry == SymmetryMode::kAfter) {
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (std::size_t i = 0; i < n; ++i) {
+    parallelFor(n, threads, [&](std::size_t i) {
       const std::unique_ptr<Lobe> lobe = makeTargetLobe(plan.info.brdf, plan.jobs[i].parameters);
       ProjectedCdfLoss judge = makeLoss(makeTarget(*lobe, plan.jobs[i].family, options.sw),
                                         options.sw.levels.back(), options.sw.seed);
       const Matrix3d m = nodeMatrix(plan.nodes[i], result.jobs[plan.nodes[i].job]);
       result.jobs[i].symmetricLoss = judge(m, nullptr);
       result.jobs[i].storedLoss = judge(rounded(m), nullptr);
-    }
+      return [] {};
+    });
   }
 
   const std::vector<std::string>& channels = plan.info.channels;

@@ -57,7 +57,7 @@ struct TableFitResult {
   std::vector<JobResult> jobs;    ///< in the order of the plan
   std::vector<bool> nodeUsable;   ///< det > 0 and invertible in float32
   std::size_t unusable = 0;       ///< nodes that are not
-  std::size_t notConverged = 0;   ///< jobs that used up their iterations
+  std::size_t notConverged = 0;   ///< jobs that used up their iterations or failed
   std::size_t weaklyAligned = 0;  ///< jobs of alignment strength below kWeakAlignment
   long long evaluations = 0;
   double largestMomentError = 0.0;

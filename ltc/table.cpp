@@ -264,7 +264,9 @@ TableEntry Table::fetch(const LobeParameters& asked) const {
       isIsotropic() ? CanonicalLobe{asked, Eigen::Matrix3d::Identity()} : canonicalLobe(asked);
   const LobeParameters& p = lobe.parameters;
   const std::array<double, 4> isotropic{p.theta, p.alphaX, 0.0, 0.0};
-  const std::array<double, 4> anisotropic{p.alphaX, p.alphaY / p.alphaX, p.theta, p.phi};
+  // at alpha 0 all lambdas are the same lobe, that of the floor
+  const double lambda = p.alphaX > 0.0 ? p.alphaY / p.alphaX : 1.0;
+  const std::array<double, 4> anisotropic{p.alphaX, lambda, p.theta, p.phi};
   const std::array<double, 4>& value = isIsotropic() ? isotropic : anisotropic;
   const std::size_t dims = info_.axes.size();
   std::array<std::size_t, 4> base{};

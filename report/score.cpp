@@ -19,6 +19,7 @@ namespace {
 using Eigen::Matrix3d;
 
 struct PointResult {
+  LobeParameters parameters;
   EntryMetrics metrics;
   bool singular = false;
   bool singularFloat32 = false;
@@ -67,7 +68,15 @@ Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& ta
     fit.seed = seed;
     return fitIsotropicEntry(*target.lobe, target.metrics.moments(), fetched, fit).m;
   }
-  SlicedWassersteinFitOptions fit;
+  const std::string preset = option("preset");
+  SlicedWassersteinFitOptions fit =
+      slicedWassersteinPreset(preset == "fast" || preset == "fine" ? preset : "standard");
+  for (const auto& [key, value] : table.info().provenance.options) {
+    if (key == "leak_weight" && std::holds_alternative<double>(value))
+      fit.leakWeight = std::get<double>(value);
+  }
+  std::string error;
+  if (!fit.isValid(&error)) fit.leakWeight = 0.0;  // of a damaged file
   fit.seed = seed;
   const SlicedWassersteinTarget lobe = makeTarget(*target.lobe, familyOf(target.parameters), fit);
   ProjectedCdfLoss loss = makeLoss(lobe, fit.levels.back(), fit.seed);
@@ -77,6 +86,7 @@ Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& ta
 PointResult judge(const TableEntry& entry, const Table& table, const Target& target,
                   const ScoreOptions& options) {
   PointResult out;
+  out.parameters = target.parameters;
   out.singular = !entry.invertible;
   out.singularFloat32 =
       out.singular || !isInvertibleInFloat(table.info().stores == MatrixStorage::kM ? entry.m : entry.mInv);
@@ -141,7 +151,9 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   for (std::size_t t = 0; t < tables.size(); ++t) {
     Score& score = scores[t];
     score.points = points.size();
-    for (const PointResult& r : results[t]) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const PointResult& r = results[t][i];
+      score.all.push_back({r.parameters, r.metrics});
       score.singular += r.singular ? 1 : 0;
       score.otherParameters += r.otherParameters ? 1 : 0;
       score.singularFloat32 += r.singularFloat32 ? 1 : 0;

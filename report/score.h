@@ -20,10 +20,16 @@ struct ScoreOptions {
   int threads = 0;  ///< 0: as many as OpenMP offers
 };
 
+struct PointScore {
+  LobeParameters parameters;  ///< at which the table was judged
+  EntryMetrics metrics;       ///< all NaN where the fetched matrix has no inverse
+};
+
 struct Score {
   std::array<Summary, kMetricCount> summary;
   std::array<bool, kMetricCount> present{};
   std::size_t points = 0;
+  std::vector<PointScore> all;  ///< every point, in order
   std::size_t otherParameters =
       0;                     ///< nodes that this table has fitted at other parameters than the first one
   std::size_t singular = 0;  ///< fetched matrices without an inverse: all metrics of these points are missing

@@ -94,11 +94,18 @@ expect "no/such" fit aniso -o no/such/x.json
 expect "--alpha-x" fit entry --alpha-x 2
 expect "--theta" fit entry --alpha-x 0.5 --theta 91
 echo "ltcfit-checkpoint 1 9 another command" > x.json.part
-expect "x.json.part: left by an interrupted run" fit aniso -o x.json --size 2x2x2x2
+expect "x.json.part: of a run that was interrupted" fit aniso -o x.json --size 2x2x2x2
 expect "x.json.part: holds another run" fit aniso -o x.json --size 2x2x2x2 --resume
 echo "something else, longer than any header of a checkpoint would be, whatever the options were, for certain: and then some more of it to be sure that it is longer than the whole of the command line" > x.json.part
 expect "x.json.part: not a checkpoint" fit aniso -o x.json --size 2x2x2x2 --resume
+rm x.json.part; mkfifo x.json.part
+expect "x.json.part: not a file" fit aniso -o x.json --size 2x2x2x2 --resume
 rm x.json.part
+expect "must be numbers" fit entry --alpha-x nan
+expect "must be a number" score good.json --min-alpha nan
+expect "name the same file" fit aniso -o x.json --report ./x.json
+expect "name the same file" fit aniso -o x.json --report x.json.part
+expect "theta-max or --alpha-floor" fit aniso -o x.json --size 2x2x2x2 --theta-max 1e-9
 expect "--threads" fit iso -o x.json --threads -1
 expect "not expected: --unknown" fit iso -o x.json --unknown
 expect "--output is required" fit iso
