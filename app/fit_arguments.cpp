@@ -45,7 +45,7 @@ void addFitterOptions(CLI::App& command, FitArguments& a) {
   command
       .add_option("--preset", a.preset,
                   "Effort. sw: fast, standard or fine; sw-sgd: quick or paper (10,000 steps of 2048 samples\n"
-                  "and 64 directions: minutes an entry)")
+                  "and 64 directions: 17 CPU seconds an entry)")
       ->check(CLI::IsMember({"fast", "standard", "fine", "quick", "paper"}))
       ->default_str(a.kind == FitKind::kIsotropic ? "fast; quick" : "standard; quick");
   command

@@ -21,7 +21,9 @@ struct SgdOptions {
   int samples = 1024;  ///< of the lobe, and as many of the LTC, in each step
   int slices = 32;     ///< random directions in each step
   double firstStep = 0.5;
-  double lastStep = 0.01;
+  /// 0.01, 0.003, 0.001, 0.0003 end at 1.047, 1.031, 1.027, 1.023 of the fast solver's SW1 at alpha 0.57 x
+  /// 0.33, theta 51 and after 1500 steps; the first one makes no difference from 0.1 to 0.5.
+  double lastStep = 0.001;
   std::uint64_t seed = 1;
 
   /// False with the reason in `error` for values that make no sense.
