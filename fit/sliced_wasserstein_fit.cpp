@@ -30,6 +30,12 @@ constexpr double kCurvatureFactor = 0.1;
 // last level after it (26 without), smallest curvatures of 0.01 .. 0.05 the same.
 constexpr double kHessianStep = 0.05;
 constexpr double kSmallestCurvature = 0.02;
+// Lobes narrower than this get so many more samples of the LTC: at grazing view their loss is all tail. Seven
+// nodes of the 8^4 table (alpha_y at the floor, phi = theta = 90 degrees) otherwise end, by the luck of the
+// lattice, at twice the SW1 that they can have.
+constexpr double kSharpWidth = 0.01;
+constexpr int kSharpFactor = 8;
+constexpr int kMostSamples = 1 << 20;
 
 int slicesOf(MatrixFamily family, int slices) {
   switch (family) {
@@ -211,8 +217,11 @@ SlicedWassersteinTarget makeTarget(const Lobe& lobe, MatrixFamily family,
 
 ProjectedCdfLoss makeLoss(const SlicedWassersteinTarget& target, const SlicedWassersteinLevel& level,
                           std::uint64_t seed) {
+  const int samples = width(target.start) < kSharpWidth
+                          ? std::max(level.samples, std::min(kSharpFactor * level.samples, kMostSamples))
+                          : level.samples;
   return ProjectedCdfLoss(prefix(target.samples, static_cast<std::size_t>(level.targetSamples)), target.start,
-                          cosineSamples(level.samples, mixSeed(seed, 31)),
+                          cosineSamples(samples, mixSeed(seed, 31)),
                           familySlices(target.family, slicesOf(target.family, level.slices)));
 }
 

@@ -15,7 +15,7 @@ namespace ltcfit {
 
 /// One stage of the descent; a cheap one first brings the matrix near.
 struct SlicedWassersteinLevel {
-  int samples = 2048;        ///< directions of the cosine
+  int samples = 2048;        ///< directions of the cosine; 8 times as many for lobes narrower than 0.01
   int slices = 64;           ///< on the half sphere; symmetric families need, and get, fewer
   int targetSamples = 8192;  ///< directions of the lobe
 };
