@@ -5,6 +5,20 @@
 #include "fit/l3_objective.h"
 
 namespace ltcfit {
+namespace {
+
+EntryFit toEntryFit(const OptimizerResult& best, const Eigen::Matrix3d& m, double lobeCube) {
+  EntryFit fit;
+  fit.m = m;
+  fit.startCost = best.startCost;
+  fit.cost = best.cost;
+  fit.relativeL3 = std::cbrt(best.cost / lobeCube);
+  fit.evaluations = best.evaluations;
+  fit.termination = best.termination;
+  return fit;
+}
+
+}  // namespace
 
 EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const Eigen::Matrix3d& start,
                            const EntryFitOptions& options) {
@@ -15,14 +29,7 @@ EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const E
       [&](std::span<const double> v) { return objective(parametrization.matrix(v)); },
       parametrization.start(), parametrization.steps(options.simplexEdge), options.nelderMead);
 
-  EntryFit fit;
-  fit.m = parametrization.matrix(best.parameters);
-  fit.startCost = best.startCost;
-  fit.cost = best.cost;
-  fit.relativeL3 = std::cbrt(best.cost / objective.lobeCube());
-  fit.evaluations = best.evaluations;
-  fit.termination = best.termination;
-  return fit;
+  return toEntryFit(best, parametrization.matrix(best.parameters), objective.lobeCube());
 }
 
 EntryFit fitL3Entry(const Lobe& lobe, double albedo, MatrixFamily family, const Eigen::Matrix3d& start,
@@ -33,14 +40,7 @@ EntryFit fitL3Entry(const Lobe& lobe, double albedo, MatrixFamily family, const 
   const OptimizerResult best =
       minimizeNelderMead([&](std::span<const double> p) { return objective(changedBy(start, family, p)); },
                          zero, steps, options.nelderMead);
-  EntryFit fit;
-  fit.m = changedBy(start, family, best.parameters);
-  fit.startCost = best.startCost;
-  fit.cost = best.cost;
-  fit.relativeL3 = std::cbrt(best.cost / objective.lobeCube());
-  fit.evaluations = best.evaluations;
-  fit.termination = best.termination;
-  return fit;
+  return toEntryFit(best, changedBy(start, family, best.parameters), objective.lobeCube());
 }
 
 }  // namespace ltcfit
