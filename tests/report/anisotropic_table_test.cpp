@@ -166,7 +166,8 @@ double unseenSw1(const Table& table, std::size_t i, int samples, int slices) {
 
 TEST(AnisotropicTable, BeatsThePublishedOneAtTheNodesTheyShare) {
   const std::string path = std::string(LTCFIT_REFERENCE_DIR) + "/kt2022-alpha-lambda-theta-phi.npy";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << "the published tables are not at " << path << " (LTCFIT_REFERENCE_DIR)";
   const Table theirs = readTable(path);
   const Table& t = ours();
   double sum = 0.0;
