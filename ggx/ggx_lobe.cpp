@@ -123,6 +123,36 @@ StretchedNode GgxLobe::atStretched(const Vector3d& s) const {
   return {wi, 2.0 * std::numbers::inv_pi * length * cosine * wi.z() / masked};
 }
 
+Vector3d GgxLobe::toStretched(const Vector3d& wi) const {
+  const double length = wi.norm();
+  const Vector3d h = length * wo() + wi;
+  const Vector3d s(h.x() / alpha_.x, h.y() / alpha_.y, h.z());
+  // nearer than this to -wo, where it is undefined, h is rounding
+  return h.squaredNorm() > 1e-22 * length * length ? s : Vector3d(Vector3d::UnitZ());
+}
+
+Eigen::Vector2d GgxLobe::stretchedAzimuth() const {
+  const Eigen::Vector2d g(alpha_.x * wo().x(), alpha_.y * wo().y());
+  const double length = g.norm();
+  return length > 0.0 ? Eigen::Vector2d(g / length) : Eigen::Vector2d::UnitX();
+}
+
+double GgxLobe::stretchedHorizon(const Eigen::Vector2d& azimuth) const {
+  // A normal at angle beta from n towards an azimuth m reflects wo to wi.z = (wo.m) sin 2 beta + wo.z cos 2
+  // beta, which is 0 first at beta = pi/4 + atan2(wo.m, wo.z) / 2.
+  const Eigen::Vector2d m(alpha_.x * azimuth.x(), alpha_.y * azimuth.y());
+  const double length = m.norm();
+  const double along = wo().head<2>().dot(m) / length;
+  const double r = std::hypot(along, wo().z());
+  // tan beta = (r + along) / wo.z, as a fraction without cancellation; then stretched
+  const double rise = along >= 0.0 ? r + along : wo().z();
+  const double run = along >= 0.0 ? wo().z() : r - along;
+  const double sine = rise;
+  const double cosine = run * length;
+  const double norm = std::hypot(sine, cosine);
+  return norm > 0.0 ? sine / (norm + cosine) : 0.0;
+}
+
 Eigen::Vector4d GgxLobe::stretched(const Vector3d& wi) const {
   const Vector3d h = wo() + wi;
   const Vector3d s(h.x() / alpha_.x, h.y() / alpha_.y, h.z());

@@ -40,6 +40,12 @@ class GgxLobe final : public Lobe {
   /// dwm.
   StretchedNode atStretched(const Eigen::Vector3d& s) const override;
 
+  Eigen::Vector3d toStretched(const Eigen::Vector3d& wi) const override;
+
+  Eigen::Vector2d stretchedAzimuth() const override;
+
+  double stretchedHorizon(const Eigen::Vector2d& azimuth) const override;
+
   /// Probability to keep a reflected visible normal so that the kept ones follow eval exactly:
   /// G2 / G1(wo) = (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), 0 at and below the horizon.
   /// KT et al. 2022 print (1 + Lambda(wi)) in the numerator, in section 3.1 and Algorithm 1; that does not

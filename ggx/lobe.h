@@ -50,6 +50,18 @@ class Lobe {
   /// quadrature, whose cells are split until they are small in them. NaN where undefined.
   virtual Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const = 0;
 
+  /// The inverse of atStretched: a vector along the s with s.z >= 0 whose wi this is, for wi of any length >
+  /// 0 at or above the horizon. (0, 0, 1) where it is undefined (the mirror direction at theta = 90 degrees).
+  virtual Eigen::Vector3d toStretched(const Eigen::Vector3d& wi) const = 0;
+
+  /// Azimuth of the view in the stretched configuration, unit: at grazing view the lobe ends across it.
+  virtual Eigen::Vector2d stretchedAzimuth() const = 0;
+
+  /// How far the directions above the horizon reach along an azimuth of the stretched configuration: largest
+  /// |s.xy| / (1 + s.z) of s in the half plane of the unit vector `azimuth`, in [0, 1]. All of the ray up to
+  /// there is above the horizon.
+  virtual double stretchedHorizon(const Eigen::Vector2d& azimuth) const = 0;
+
   /// The lobe in coordinates where it fills the upper hemisphere: for any h,
   ///   integral of eval(wi) h(wi) dwi = integral over unit s with s.z > 0 of measure(s) h(wi(s)) ds.
   /// The measure is bounded and smooth but for kinks (horizon, masking), however small alpha.

@@ -25,6 +25,9 @@ class LtcLobe final : public Lobe {
     const Eigen::Vector3d s = (ltc_.mInv() * wi).normalized();
     return {s.x(), s.y(), s.z(), 0.0};
   }
+  Eigen::Vector3d toStretched(const Eigen::Vector3d& wi) const override { return ltc_.mInv() * wi; }
+  Eigen::Vector2d stretchedAzimuth() const override { return Eigen::Vector2d::UnitX(); }
+  double stretchedHorizon(const Eigen::Vector2d&) const override { return 1.0; }
 
  private:
   Ltc ltc_;
