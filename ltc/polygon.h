@@ -21,6 +21,12 @@ double polygonIrradiance(std::span<const Eigen::Vector3d> vertices);
 /// does not depend on which of the equivalent matrices is given.
 double ltcPolygonIntegral(const Ltc& ltc, std::span<const Eigen::Vector3d> vertices);
 
+/// As ltcPolygonIntegral, with the derivative: `gradient`(r, c) becomes d value / d P(r, c) at P = 0 for the
+/// LTC of M (I + P). Continuous in M and in the vertices, also where a vertex crosses the horizon; finite for
+/// every edge. For edges through the origin, whose plane is undefined, it is 0, as their value is.
+double ltcPolygonIntegral(const Ltc& ltc, std::span<const Eigen::Vector3d> vertices,
+                          Eigen::Matrix3d* gradient);
+
 /// Vector form factor F of a polygon without clipping: 1/(2 pi) sum of edge angles times edge normals; its
 /// z is the form factor of a polygon wholly above the horizon (Heitz 2017; Hill and Heitz 2016).
 Eigen::Vector3d vectorFormFactor(std::span<const Eigen::Vector3d> vertices);
@@ -29,5 +35,8 @@ Eigen::Vector3d vectorFormFactor(std::span<const Eigen::Vector3d> vertices);
 /// by the fit max(0, (|F|^2 + F.z) / (|F| + 1)) (Hill and Heitz 2016). Not exact: for polygons through the
 /// horizon it is off by up to 0.14.
 double proxySphereFormFactor(const Eigen::Vector3d& vectorFormFactor);
+
+/// As ltcPolygonIntegral through that shortcut, in [0, 1]: what an engine that takes it shades with.
+double ltcPolygonIntegralByProxySphere(const Ltc& ltc, std::span<const Eigen::Vector3d> vertices);
 
 }  // namespace ltcfit

@@ -1,16 +1,13 @@
 // The families of random lights that the metrics form and light_s, light_m, light_l average over.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 
 #include "ggx/moments.h"
 #include "ggx/random.h"
+#include "ltc/quad.h"
 
 namespace ltcfit {
-
-/// A rectangle in the shading frame, counterclockwise seen from above.
-using Quad = std::array<Eigen::Vector3d, 4>;
 
 /// A quad of the metric `form`: on the plane tangent to the lobe's mean direction, centre N(0, I) 1.5 spread,
 /// half-sizes exp(0.7 N(0, 1)) 1.5 spread, angle uniform.

@@ -192,6 +192,104 @@ TEST(LtcPolygonIntegral, EquivalentMatricesGiveTheSameSign) {
   EXPECT_NEAR(ltcPolygonIntegral(Ltc(flipped), light), ltcPolygonIntegral(Ltc(m), light), 1e-14);
 }
 
+// Largest deviation of the gradient from central differences over M (I + h E_rc), in units of the larger of
+// the two.
+double gradientError(const Matrix3d& m, const std::vector<Vector3d>& polygon, double h, double spoil = 0.0) {
+  Matrix3d gradient;
+  ltcPolygonIntegral(Ltc(m), polygon, &gradient);
+  gradient(0, 2) += spoil * gradient.norm();
+  Matrix3d differences;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      const auto at = [&](double step) {
+        Matrix3d change = Matrix3d::Identity();
+        change(r, c) += step;
+        return ltcPolygonIntegral(Ltc(m * change), polygon);
+      };
+      differences(r, c) = (at(h) - at(-h)) / (2.0 * h);
+    }
+  }
+  return (gradient - differences).norm() / std::max({gradient.norm(), differences.norm(), 1e-6});
+}
+
+TEST(LtcPolygonIntegral, GradientAgreesWithDifferencesAndAWrongOneDoesNot) {
+  Random random(31);
+  int clipped = 0;
+  for (int i = 0; i < 500; ++i) {
+    Matrix3d m = Eigen::AngleAxisd(3.0 * random.uniform(),
+                                   Vector3d(random.normal(), random.normal(), 0.3).normalized())
+                     .toRotationMatrix();
+    const double width = std::pow(10.0, -3.0 * random.uniform());
+    m.col(0) *= width;
+    m.col(1) *= width * (0.3 + random.uniform());
+    if (i % 7 == 0) m.col(1) *= -1.0;
+    // in units of the lobe's width about its axis, so that the light matters
+    std::vector<Vector3d> polygon;
+    const Vector3d centre(random.normal(), random.normal(), 0.2 + random.uniform());
+    for (int k = 0; k < 5; ++k) {
+      const double angle = 0.4 * kPi * k;
+      const double radius = k % 2 == 0 ? 1.0 : 0.5;
+      polygon.push_back(
+          m * (centre + radius * Vector3d(std::cos(angle), std::sin(angle), 0.4 * std::cos(angle))));
+    }
+    const Ltc ltc(m);
+    int up = 0;
+    for (const Vector3d& p : polygon) up += (ltc.mInv() * p).z() > 0.0 ? 1 : 0;
+    if (up > 0 && up < 5) ++clipped;
+    // a step of 1e-5 leaves 1e-9 of truncation and 1e-11 of rounding; a vertex at the horizon makes a kink
+    EXPECT_LT(gradientError(m, polygon, 1e-5), 1e-5) << i;
+    EXPECT_GT(gradientError(m, polygon, 1e-5, 1e-3), 1e-4) << "a wrong gradient";
+  }
+  EXPECT_GT(clipped, 30);
+}
+
+TEST(LtcPolygonIntegral, GradientIsContinuousWhereAVertexCrossesTheHorizon) {
+  const Matrix3d m = Matrix3d::Identity();
+  Matrix3d last;
+  double value = 0.0;
+  for (int i = -100; i <= 100; ++i) {
+    const std::vector<Vector3d> polygon{{0.5, -0.4, 0.6}, {0.9, 0.3, 1e-4 * i}, {0.4, 0.5, 0.7}};
+    Matrix3d gradient;
+    const double now = ltcPolygonIntegral(Ltc(m), polygon, &gradient);
+    if (i > -100) {
+      EXPECT_LT((gradient - last).norm(), 5e-4) << i;
+      EXPECT_NEAR(now, value, 1e-4);
+    }
+    last = gradient;
+    value = now;
+  }
+}
+
+TEST(LtcPolygonIntegral, GradientIsFiniteForHardEdges) {
+  Matrix3d gradient;
+  const Ltc ltc(Matrix3d::Identity());
+  // edges that nearly vanish, that coincide, and one that spans nearly pi; differences where they can be
+  // taken
+  const std::vector<Vector3d> tiny{
+      {0.1, 0.2, 1.0}, {0.1 + 1e-13, 0.2, 1.0}, {0.3, 0.2, 1.0}, {0.3, 0.2, 1.0}, {0.1, 0.6, 1.0}};
+  ltcPolygonIntegral(ltc, tiny, &gradient);
+  EXPECT_TRUE(gradient.allFinite());
+  EXPECT_LT(gradientError(Matrix3d::Identity(), tiny, 1e-5), 1e-5);
+  for (const double gap : {1e-3, 1e-6, 1e-9}) {
+    const std::vector<Vector3d> flat{{-1.0, 0.0, gap}, {1.0, 0.0, gap}, {0.2, 1.0, 0.5}};
+    ltcPolygonIntegral(ltc, flat, &gradient);
+    EXPECT_TRUE(gradient.allFinite() && gradient.norm() < 10.0) << gap;
+    // a step that is small against the distance of the edge from the origin
+    EXPECT_LT(gradientError(Matrix3d::Identity(), flat, std::min(1e-5, 0.1 * gap)), gap < 1e-7 ? 1e-2 : 1e-3)
+        << gap;
+  }
+  const std::vector<Vector3d> through{{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.2, 1.0, 0.5}};
+  ltcPolygonIntegral(ltc, through, &gradient);
+  EXPECT_TRUE(gradient.allFinite());
+  ltcPolygonIntegral(ltc, std::vector<Vector3d>{{0, 0, 1}, {1, 0, 1}}, &gradient);
+  EXPECT_EQ(gradient, Matrix3d::Zero());
+  // scale and rotation about z change nothing
+  const std::vector<Vector3d> light{{0.5, -0.4, 0.6}, {0.9, 0.3, -0.2}, {0.4, 0.5, 0.7}};
+  ltcPolygonIntegral(ltc, light, &gradient);
+  EXPECT_NEAR(gradient.trace(), 0.0, 1e-14);
+  EXPECT_NEAR(gradient(0, 1) - gradient(1, 0), 0.0, 1e-14);
+}
+
 TEST(VectorFormFactor, ItsZIsTheIrradianceAboveTheHorizon) {
   Random random(3);
   for (int k = 0; k < 200; ++k) {
@@ -228,6 +326,20 @@ TEST(ProxySphere, IsTheApproximationItIs) {
   }
   EXPECT_LT(worst, 0.14);
   EXPECT_GT(worst, 0.10);
+}
+
+TEST(ProxySphere, OfAnLtcIsThatOfTheMovedPolygon) {
+  Matrix3d m;
+  m << 0.6, 0.1, 0.3, 0.0, 0.5, 0.2, -0.3, 0.1, 0.9;
+  const std::vector<Vector3d> light{{0.5, -0.4, 0.6}, {0.9, 0.3, 0.4}, {0.4, 0.5, 0.7}};
+  std::vector<Vector3d> moved;
+  for (const Vector3d& v : light) moved.push_back(m.inverse() * v);
+  EXPECT_NEAR(ltcPolygonIntegralByProxySphere(Ltc(m), light), proxySphereFormFactor(vectorFormFactor(moved)),
+              1e-14);
+  Matrix3d flipped = m;
+  flipped.col(0) *= -1.0;
+  EXPECT_NEAR(ltcPolygonIntegralByProxySphere(Ltc(flipped), light),
+              ltcPolygonIntegralByProxySphere(Ltc(m), light), 1e-14);
 }
 
 }  // namespace
