@@ -12,9 +12,16 @@
 namespace ltcfit::app {
 namespace {
 
-// Isotropic tables have room for less leaked light: at 0.2 it falls by a tenth for half a percent of SW1. For
-// the anisotropic table SW1 comes first (DESIGN.md, Leaked light).
+// DESIGN.md, Leaked light. Isotropic tables have room for less of it: at 0.2 it falls by a tenth for half a
+// percent of SW1; for the anisotropic table SW1 comes first.
 constexpr double kIsotropicLeakWeight = 0.2;
+constexpr double kIsotropicLightLeakWeight = 0.02;
+constexpr double kAnisotropicLightLeakWeight = 0.045;
+// DESIGN.md, Lights: the largest that do not lose on large lights against sw.
+constexpr double kIsotropicSizeExponent = 0.25;
+constexpr double kAnisotropicSizeExponent = 0.4;
+// What judges the SW1 of light-space fits, for the summary.
+constexpr SlicedWassersteinLevel kJudge{.samples = 1024, .slices = 32, .targetSamples = 2048};
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr int kL3Samples = 1024;
 
@@ -33,19 +40,32 @@ std::string presetOf(const FitArguments& a) {
   return a.preset.empty() ? defaultPreset(a) : a.preset;
 }
 
+double leakWeightOf(const FitArguments& a) {
+  const bool iso = a.kind == FitKind::kIsotropic;
+  if (a.leakWeight) return *a.leakWeight;
+  if (a.fitter == "light") return iso ? kIsotropicLightLeakWeight : kAnisotropicLightLeakWeight;
+  return a.fitter == "sw" && iso ? kIsotropicLeakWeight : 0.0;
+}
+
+double sizeExponentOf(const FitArguments& a) {
+  return a.sizeExponent.value_or(a.kind == FitKind::kIsotropic ? kIsotropicSizeExponent
+                                                               : kAnisotropicSizeExponent);
+}
+
 void addFitterOptions(CLI::App& command, FitArguments& a) {
-  if (a.kind == FitKind::kIsotropic) a.leakWeight = kIsotropicLeakWeight;
   command
       .add_option("--fitter", a.fitter,
-                  "sw: sliced-Wasserstein distance, quasi-Newton (fast, best);\n"
+                  "light: least squares over polygon lights, what a renderer computes;\n"
+                  "sw: sliced-Wasserstein distance, quasi-Newton;\n"
                   "sw-sgd: the same by stochastic descent (KT et al. 2022);\n"
                   "l3: Nelder-Mead on the L3 error (Heitz et al. 2016)")
-      ->check(CLI::IsMember({"sw", "sw-sgd", "l3"}))
+      ->check(CLI::IsMember({"light", "sw", "sw-sgd", "l3"}))
       ->capture_default_str();
   command
-      .add_option("--preset", a.preset,
-                  "Effort. sw: fast, standard or fine; sw-sgd: quick or paper (10,000 steps of 2048 samples\n"
-                  "and 64 directions: 17 CPU seconds an entry)")
+      .add_option(
+          "--preset", a.preset,
+          "Effort. light, sw: fast, standard or fine; sw-sgd: quick or paper (10,000 steps of 2048 samples\n"
+          "and 64 directions: 17 CPU seconds an entry)")
       ->check(CLI::IsMember({"fast", "standard", "fine", "quick", "paper"}))
       ->default_str(a.kind == FitKind::kIsotropic ? "fast; quick" : "standard; quick");
   command
@@ -57,10 +77,30 @@ void addFitterOptions(CLI::App& command, FitArguments& a) {
       ->check(CLI::Range(4, 65536))
       ->default_str("of the preset");
   command
-      .add_option("--leak-weight", a.leakWeight,
-                  "sw: weight of mass below the horizon, in units of the lobe's width; 0..100")
+      .add_option(
+          "--leak-weight", a.leakWeight,
+          "Weight of mass below the horizon: light: in units of the light error; sw: in units of the\n"
+          "lobe's width; 0..100")
       ->check(CLI::Range(0.0, 100.0))
+      ->default_str(a.kind == FitKind::kIsotropic
+                        ? fmt::format("light: {}; sw: {}", kIsotropicLightLeakWeight, kIsotropicLeakWeight)
+                        : fmt::format("light: {}; sw: 0", kAnisotropicLightLeakWeight));
+  command
+      .add_option(
+          "--weighting", a.weighting,
+          "light: what a difference counts: absolute, relative to the light (down to 1 % of the lobe), or\n"
+          "mixed (its square root)")
+      ->check(CLI::IsMember({"absolute", "relative", "mixed"}))
       ->capture_default_str();
+  command
+      .add_option("--size-exponent", a.sizeExponent,
+                  "light: differences of a light of half-size s count s^-X: more favours small lights; -4..4")
+      ->check(CLI::Range(-4.0, 4.0))
+      ->type_name("X")
+      ->default_str(fmt::format("{}", sizeExponentOf(a)));
+  command.add_option("--lights", a.lights, "Lights of light, for each entry; 16..65536")
+      ->check(CLI::Range(16, 65536))
+      ->default_str("of the preset");
   command
       .add_option("--max-evaluations", a.maxEvaluations,
                   "l3: evaluations of the error for one try at one entry, 1..1000000")
@@ -105,22 +145,28 @@ void checkFitArguments(const CLI::App& command, const FitArguments& a) {
     const CLI::Option* const found = command.get_option_no_throw(option);
     return found != nullptr && found->count() > 0;
   };
-  if (!std::isfinite(a.leakWeight)) refuse("--leak-weight must be a number in 0..100");
-  const bool sw = a.fitter == "sw";
+  if (!std::isfinite(leakWeightOf(a))) refuse("--leak-weight must be a number in 0..100");
+  if (!std::isfinite(sizeExponentOf(a))) refuse("--size-exponent must be a number in -4..4");
+  const bool light = a.fitter == "light";
+  const bool sw = a.fitter == "sw" || light;
   const bool sgd = a.fitter == "sw-sgd";
   const bool l3 = a.fitter == "l3";
-  if (l3 && given("--preset")) refuse("--preset needs --fitter sw or sw-sgd");
+  if (l3 && given("--preset")) refuse("--preset needs --fitter light, sw or sw-sgd");
   if (sw && (a.preset == "quick" || a.preset == "paper"))
-    refuse("--preset " + a.preset + " needs --fitter sw-sgd; sw has fast, standard and fine");
+    refuse("--preset " + a.preset + " needs --fitter sw-sgd; light and sw have fast, standard and fine");
   if (sgd && given("--preset") && a.preset != "quick" && a.preset != "paper")
-    refuse("--preset " + a.preset + " needs --fitter sw; sw-sgd has quick and paper");
-  if (l3 && given("--directions")) refuse("--directions needs --fitter sw or sw-sgd");
-  if (!sw && given("--leak-weight")) refuse("--leak-weight needs --fitter sw");
+    refuse("--preset " + a.preset + " needs --fitter light or sw; sw-sgd has quick and paper");
+  if ((l3 || light) && given("--directions")) refuse("--directions needs --fitter sw or sw-sgd");
+  if (light && given("--samples")) refuse("--samples needs --fitter sw, sw-sgd or l3; light has --lights");
+  if (!sw && given("--leak-weight")) refuse("--leak-weight needs --fitter light or sw");
+  for (const char* const option : {"--weighting", "--size-exponent", "--lights"}) {
+    if (!light && given(option)) refuse(std::string(option) + " needs --fitter light");
+  }
   if (!l3 && given("--max-evaluations")) refuse("--max-evaluations needs --fitter l3");
   if (!l3 && a.family != "4")
-    refuse("--family " + a.family + " needs --fitter l3: sw and sw-sgd fit all 4 parameters");
+    refuse("--family " + a.family + " needs --fitter l3: the others fit all 4 parameters");
   if (isWarmStartedL3(a) && a.resume)
-    refuse("--resume needs --fitter sw or sw-sgd: the l3 fit of an isotropic table takes seconds");
+    refuse("--resume needs --fitter light, sw or sw-sgd: the l3 fit of an isotropic table takes seconds");
 }
 
 std::vector<std::size_t> parseSize(const std::string& text, std::size_t count) {
@@ -150,13 +196,24 @@ TableFitOptions toFitOptions(const FitArguments& a) {
   TableFitOptions o;
   const auto seed = static_cast<std::uint64_t>(a.seed);
   o.threads = a.threads;
-  o.fitter = a.fitter == "sw"       ? Fitter::kSlicedWasserstein
+  o.fitter = a.fitter == "light"    ? Fitter::kLight
+             : a.fitter == "sw"     ? Fitter::kSlicedWasserstein
              : a.fitter == "sw-sgd" ? Fitter::kSlicedWassersteinSgd
                                     : Fitter::kL3;
+  const bool light = a.fitter == "light";
   o.sw = slicedWassersteinPreset(a.fitter == "sw" ? presetOf(a) : "standard");
   o.sw.seed = seed;
+  if (light) {
+    o.light = lightFitPreset(presetOf(a));
+    o.sw.levels = {kJudge};
+    if (a.lights > 0) o.light.lights.lights = a.lights;
+    o.light.lights.weighting = lightWeightingFromName(a.weighting);
+    o.light.lights.sizeExponent = sizeExponentOf(a);
+    o.light.leakWeight = leakWeightOf(a);
+  }
+  o.light.lights.seed = seed;
   if (a.fitter == "sw") {
-    o.sw.leakWeight = a.leakWeight;
+    o.sw.leakWeight = leakWeightOf(a);
     if (a.samples > 0) o.sw.levels.back().samples = a.samples;
     if (a.directions > 0) o.sw.levels.back().slices = a.directions;
   }
@@ -200,7 +257,13 @@ Provenance makeProvenance(const FitArguments& a) {
     if (a.samples > 0) add("--samples", "samples", a.samples, std::int64_t{a.samples});
     if (a.directions > 0) add("--directions", "directions", a.directions, std::int64_t{a.directions});
   }
-  if (a.fitter == "sw") add("--leak-weight", "leak_weight", a.leakWeight, a.leakWeight);
+  if (a.fitter == "light") {
+    if (a.lights > 0) add("--lights", "lights", a.lights, std::int64_t{a.lights});
+    add("--weighting", "weighting", a.weighting, a.weighting);
+    add("--size-exponent", "size_exponent", sizeExponentOf(a), sizeExponentOf(a));
+  }
+  if (a.fitter == "light" || a.fitter == "sw")
+    add("--leak-weight", "leak_weight", leakWeightOf(a), leakWeightOf(a));
   if (!iso && a.symmetry != "during") add("--symmetry", "symmetry", a.symmetry, a.symmetry);
   add("--alpha-floor", "alpha_floor", a.alphaFloor, a.alphaFloor);
   if (a.thetaMax != kHalfPi) add("--theta-max", "theta_max", a.thetaMax, a.thetaMax);

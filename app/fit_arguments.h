@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct FitArguments {
   std::string reportPath;
   std::string size;
   std::string axes = "2017";
-  std::string fitter = "sw";
+  std::string fitter = "light";
   std::string preset;  // empty: the fitter's default
   std::string family = "4";
   std::string symmetry = "during";
@@ -27,7 +28,10 @@ struct FitArguments {
   int directions = 0;  // 0: the preset's
   double alphaFloor = IsotropicTableOptions{}.alphaFloor;
   double thetaMax = IsotropicTableOptions{}.thetaMax;
-  double leakWeight = 0.0;
+  std::optional<double> leakWeight;  // the fitter's default
+  std::string weighting = "absolute";
+  std::optional<double> sizeExponent;  // the default of the table
+  int lights = 0;                      // 0: the preset's
   int maxEvaluations = NelderMeadOptions{}.maxEvaluations;
   int threads = 0;
   std::int64_t seed = 1;
@@ -48,6 +52,9 @@ void checkFitArguments(const CLI::App& command, const FitArguments& a);
 std::vector<std::size_t> parseSize(const std::string& text, std::size_t count);
 /// The preset asked for, or the fitter's default.
 std::string presetOf(const FitArguments& a);
+/// The leak weight asked for, or the default of fitter and table.
+double leakWeightOf(const FitArguments& a);
+double sizeExponentOf(const FitArguments& a);
 /// How a lobe is fitted, valid.
 TableFitOptions toFitOptions(const FitArguments& a);
 /// Whether fitIsotropicTable does it (warm starts along the table), not fitTable.

@@ -1,6 +1,7 @@
 // ltcfit score: how far a table is from the lobes it stands for.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,9 +17,10 @@ namespace {
 
 struct ScoreArguments {
   std::string table;
-  std::string against;
+  std::vector<std::string> against;
   std::string points = "nodes";
   std::string storedAs = "file";
+  std::string integrator = "exact";
   std::string reportPath;
   std::int64_t count = 512;
   std::int64_t seed = 1;
@@ -83,6 +85,34 @@ void printRatios(const Score& ours, const Score& theirs) {
   }
 }
 
+// Means of more than two tables next to each other; the tables by number.
+void printSideBySide(const ScoreArguments& a, const std::vector<Score>& scores) {
+  fmt::print("\nmeans               ");
+  for (std::size_t t = 0; t < scores.size(); ++t) fmt::print("{:>11}", fmt::format("[{}]", t + 1));
+  fmt::print("   over [{}]:", scores.size());
+  for (std::size_t t = 0; t + 1 < scores.size(); ++t) fmt::print("{:>8}", fmt::format("[{}]", t + 1));
+  fmt::print("\n");
+  for (std::size_t m = 0; m < kMetricCount; ++m) {
+    const auto mean = [&](const Score& score) {
+      return score.present[m] ? score.summary[m].mean : std::nan("");
+    };
+    const auto shown = [](double v, const std::string& text) {
+      return std::isfinite(v) ? text : std::string("-");
+    };
+    if (std::none_of(scores.begin(), scores.end(), [&](const Score& s) { return s.present[m]; })) continue;
+    fmt::print("{:<20}", metricName(static_cast<Metric>(m)));
+    for (const Score& score : scores) fmt::print("{:>11}", shown(mean(score), number(mean(score))));
+    fmt::print("           ");
+    for (std::size_t t = 0; t + 1 < scores.size(); ++t) {
+      const double ratio = mean(scores[t]) / mean(scores.back());
+      fmt::print("{:>8}", shown(ratio, fmt::format("{:.3f}", ratio)));
+    }
+    fmt::print("\n");
+  }
+  fmt::print("[1] {}\n", a.table);
+  for (std::size_t t = 0; t < a.against.size(); ++t) fmt::print("[{}] {}\n", t + 2, a.against[t]);
+}
+
 nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
   for (std::size_t m = 0; m < kMetricCount; ++m) {
@@ -102,13 +132,16 @@ nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
           {"metrics", metrics}};
 }
 
-// One line a point; the second table's columns start with "against_".
+// One line a point; columns of the other tables start with "against_", "against2_", ...
 std::string reportCsv(const std::vector<Score>& scores) {
   std::string out = "alpha_x,alpha_y,theta,phi";
   for (std::size_t t = 0; t < scores.size(); ++t) {
     for (std::size_t m = 0; m < kMetricCount; ++m) {
       if (scores[t].present[m])
-        fmt::format_to(std::back_inserter(out), ",{}{}", t > 0 ? "against_" : "",
+        fmt::format_to(std::back_inserter(out), ",{}{}",
+                       t == 0   ? std::string()
+                       : t == 1 ? std::string("against_")
+                                : fmt::format("against{}_", t),
                        metricName(static_cast<Metric>(m)));
     }
   }
@@ -141,10 +174,10 @@ int scoreCommand(const ScoreArguments& a) {
   if (!a.reportPath.empty()) checkWritable(a.reportPath);
   const Table table = readForScore(a, a.table);
   std::vector<Table> others;
-  if (!a.against.empty()) {
-    others.push_back(readForScore(a, a.against));
-    if (others[0].isIsotropic() != table.isIsotropic()) {
-      throw InputError(a.against +
+  for (const std::string& path : a.against) {
+    others.push_back(readForScore(a, path));
+    if (others.back().isIsotropic() != table.isIsotropic()) {
+      throw InputError(path +
                        ": one table is isotropic, the other anisotropic: they have no points in common");
     }
   }
@@ -157,6 +190,8 @@ int scoreCommand(const ScoreArguments& a) {
   options.minAlpha = a.minAlpha;
   options.metrics = a.metrics;
   options.metrics.seed = static_cast<std::uint64_t>(a.seed);
+  options.metrics.integrator =
+      a.integrator == "exact" ? LightIntegrator::kExact : LightIntegrator::kProxySphere;
   options.interpolation = a.interpolation;
   options.threads = a.threads;
   std::vector<const Table*> tables{&table};
@@ -172,15 +207,14 @@ int scoreCommand(const ScoreArguments& a) {
 
   if (!a.reportPath.empty()) writeFileAtomically(a.reportPath, reportCsv(scores));
   if (a.json) {
-    nlohmann::ordered_json out{{"points", a.points},           {"count", scores[0].points},
-                               {"min_alpha", a.minAlpha},      {"seed", a.seed},
-                               {"samples", a.metrics.samples}, {"directions", a.metrics.directions},
-                               {"quads", a.metrics.quads},     {"lights", a.metrics.lights}};
+    nlohmann::ordered_json out{
+        {"points", a.points},       {"count", scores[0].points},    {"min_alpha", a.minAlpha},
+        {"seed", a.seed},           {"samples", a.metrics.samples}, {"directions", a.metrics.directions},
+        {"quads", a.metrics.quads}, {"lights", a.metrics.lights},   {"integrator", a.integrator}};
     out["tables"] = {toJson(a.table, scores[0])};
-    if (scores.size() > 1) {
-      out["tables"].push_back(toJson(a.against, scores[1]));
-      out["worst_sw1_ratio"] = worstRatio(scores[0], scores[1]);
-    }
+    for (std::size_t t = 1; t < scores.size(); ++t)
+      out["tables"].push_back(toJson(a.against[t - 1], scores[t]));
+    if (scores.size() > 1) out["worst_sw1_ratio"] = worstRatio(scores[0], scores[1]);
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return kExitOk;
   }
@@ -190,9 +224,12 @@ int scoreCommand(const ScoreArguments& a) {
              a.metrics.samples, a.metrics.directions, a.metrics.quads, a.metrics.lights);
   fmt::print("{} ({})\n", a.table, describe(table));
   printSummaries(scores[0]);
-  if (scores.size() > 1) {
-    fmt::print("\n{} ({})\n", a.against, describe(others[0]));
-    printSummaries(scores[1]);
+  for (std::size_t t = 1; t < scores.size(); ++t) {
+    fmt::print("\n{} ({})\n", a.against[t - 1], describe(others[t - 1]));
+    printSummaries(scores[t]);
+  }
+  if (scores.size() > 2) printSideBySide(a, scores);
+  if (scores.size() == 2) {
     printRatios(scores[0], scores[1]);
     fmt::print("largest ratio of SW1 at one point: {:.3f}\n", worstRatio(scores[0], scores[1]));
     if (scores[1].otherParameters > 0) {
@@ -217,7 +254,10 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
                    "Table to score: ltcfit's JSON, or a published table (.npy, DDS; the first texture)")
       ->required()
       ->type_name("FILE");
-  command->add_option("--against", a->against, "Second table, scored at the same points")->type_name("FILE");
+  command
+      ->add_option("--against", a->against,
+                   "Other tables, scored at the same points; two or more are shown side by side")
+      ->type_name("FILE...");
   command
       ->add_option(
           "--points", a->points,
@@ -230,6 +270,13 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
                    "its middle\n"
                    "element, as in the exported header and the shaders of engines; M = the matrix")
       ->check(CLI::IsMember({"file", "M", "Minv"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--integrator", a->integrator,
+          "What the table's light integrals are computed by, in form and light_*: exact = clipped at the\n"
+          "horizon; proxy-sphere = the shortcut of engines")
+      ->check(CLI::IsMember({"exact", "proxy-sphere"}))
       ->capture_default_str();
   command->add_option("--count", a->count, "Number of points; 0 = all nodes")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{100000000}))

@@ -20,8 +20,8 @@
 namespace ltcfit {
 namespace {
 
-constexpr std::string_view kMagic = "ltcfit-checkpoint 1 ";
-constexpr std::size_t kNumbers = 23;
+constexpr std::string_view kMagic = "ltcfit-checkpoint 2 ";
+constexpr std::size_t kNumbers = 24;
 using Numbers = std::array<double, kNumbers>;
 
 Numbers toNumbers(const JobResult& r) {
@@ -38,6 +38,7 @@ Numbers toNumbers(const JobResult& r) {
                                               r.norm,
                                               r.fresnel,
                                               r.momentError,
+                                              r.integralError,
                                               static_cast<double>(r.evaluations),
                                               static_cast<double>(r.termination),
                                               (r.fitted ? 1.0 : 0.0) + (r.flipWouldBeCloser ? 2.0 : 0.0)};
@@ -59,10 +60,11 @@ JobResult fromNumbers(const Numbers& n) {
   r.norm = n[17];
   r.fresnel = n[18];
   r.momentError = n[19];
-  r.evaluations = static_cast<int>(n[20]);
-  r.termination = static_cast<Termination>(static_cast<int>(n[21]));
-  r.fitted = std::fmod(n[22], 2.0) == 1.0;
-  r.flipWouldBeCloser = n[22] >= 2.0;
+  r.integralError = n[20];
+  r.evaluations = static_cast<int>(n[21]);
+  r.termination = static_cast<Termination>(static_cast<int>(n[22]));
+  r.fitted = std::fmod(n[23], 2.0) == 1.0;
+  r.flipWouldBeCloser = n[23] >= 2.0;
   return r;
 }
 
@@ -96,7 +98,7 @@ bool parseLine(std::string_view line, std::size_t jobs, std::size_t* job, Number
   const bool finite = std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); });
   // norm and Fresnel are albedos; evaluations and termination go into integers
   return p == last && finite && n[17] >= 0.0 && n[17] <= 1.001 && n[18] >= 0.0 && n[18] <= 1.001 &&
-         n[20] >= 0.0 && n[20] < 2e9 && n[21] >= 0.0 && n[21] <= 2.0;
+         n[21] >= 0.0 && n[21] < 2e9 && n[22] >= 0.0 && n[22] <= 2.0;
 }
 
 void writeAll(int file, const std::string& path, std::string_view text) {

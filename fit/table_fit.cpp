@@ -69,6 +69,8 @@ std::string_view fitterName(Fitter fitter) {
       return "sw-sgd";
     case Fitter::kL3:
       return "l3";
+    case Fitter::kLight:
+      return "light";
     case Fitter::kSlicedWasserstein:
       break;
   }
@@ -76,7 +78,7 @@ std::string_view fitterName(Fitter fitter) {
 }
 
 bool TableFitOptions::isValid(std::string* error) const {
-  return sw.isValid(error) && sgd.isValid(error) && l3.nelderMead.isValid(error);
+  return sw.isValid(error) && sgd.isValid(error) && light.isValid(error) && l3.nelderMead.isValid(error);
 }
 
 JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOptions& options) {
@@ -116,6 +118,21 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOption
       r.termination = fit.termination;
       break;
     }
+    case Fitter::kLight: {
+      const ContourIntegrator truth(*lobe);
+      const LightTarget lights{truth, moments.albedo, job.family, target.start};
+      LightFit fit = fitLights(lights, target.start, options.light);
+      r.evaluations = fit.evaluations;
+      if (fit.termination == Termination::kFailure) {
+        const SlicedWassersteinFit sw = fitSlicedWasserstein(target, target.start, options.sw, judge);
+        fit = fitLights(lights, sw.m, options.light);
+        r.evaluations += sw.evaluations + fit.evaluations;
+      }
+      m = fit.m;
+      r.termination = fit.termination;
+      r.integralError = fit.integralError;
+      break;
+    }
   }
   r.fitted = m.allFinite() && m.determinant() != 0.0;
   if (!r.fitted) return r;
@@ -129,7 +146,7 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOption
   r.distanceAfter = aligned.distanceAfter;
   r.alignmentStrength = aligned.strength;
   r.flipWouldBeCloser = aligned.flipWouldBeCloser;
-  r.alignedLoss = judge(r.m, nullptr);
+  r.alignedLoss = r.m == m ? r.loss : judge(r.m, nullptr);
   const Matrix3d symmetric = projectOnFamily(r.m, familyOf(job.parameters));
   r.symmetricLoss = symmetric == r.m ? r.alignedLoss : judge(symmetric, nullptr);
   r.storedLoss = judge(rounded(symmetric), nullptr);
@@ -195,6 +212,7 @@ TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const Tabl
     result.notConverged += job.termination == Termination::kConverged ? 0 : 1;
     result.weaklyAligned += job.alignmentStrength < kWeakAlignment ? 1 : 0;
     result.evaluations += job.evaluations;
+    result.largestIntegralError = std::max(result.largestIntegralError, job.integralError);
     result.largestMomentError = std::max(result.largestMomentError, job.momentError);
   }
   return result;

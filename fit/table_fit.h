@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/entry_fit.h"
+#include "fit/light_fit.h"
 #include "fit/sgd.h"
 #include "fit/sliced_wasserstein_fit.h"
 #include "fit/table_plan.h"
@@ -17,6 +18,7 @@ enum class Fitter {
   kSlicedWasserstein,     ///< "sw": fitSlicedWasserstein
   kSlicedWassersteinSgd,  ///< "sw-sgd": descendSlicedWasserstein
   kL3,                    ///< "l3": Nelder-Mead on the L3 error
+  kLight,                 ///< "light": fitLights
 };
 std::string_view fitterName(Fitter fitter);
 
@@ -24,6 +26,7 @@ struct TableFitOptions {
   Fitter fitter = Fitter::kSlicedWasserstein;
   SlicedWassersteinFitOptions sw;  ///< also judges the results of the other fitters
   SgdOptions sgd;
+  LightFitOptions light;
   EntryFitOptions l3;
   int threads = 0;  ///< 0: as many as OpenMP offers
 
@@ -43,9 +46,10 @@ struct JobResult {
   double distanceAfter = 0.0;
   double alignmentStrength = 0.0;  ///< Alignment::strength
   bool flipWouldBeCloser = false;
-  double norm = 0.0;         ///< n_D
-  double fresnel = 0.0;      ///< f_D
-  double momentError = 0.0;  ///< estimated absolute error of the two
+  double norm = 0.0;           ///< n_D
+  double fresnel = 0.0;        ///< f_D
+  double momentError = 0.0;    ///< estimated absolute error of the two
+  double integralError = 0.0;  ///< kLight: estimated largest error of the true light integrals
   int evaluations = 0;
   /// kConverged also for a stochastic descent that stayed finite: it has no other criterion.
   Termination termination = Termination::kFailure;
@@ -61,6 +65,7 @@ struct TableFitResult {
   std::size_t weaklyAligned = 0;  ///< jobs of alignment strength below kWeakAlignment
   long long evaluations = 0;
   double largestMomentError = 0.0;
+  double largestIntegralError = 0.0;
 };
 
 /// Below this (Alignment::strength) the angle of eq. 12 is chosen by little: neighbours may differ by more

@@ -15,11 +15,19 @@
 
 namespace ltcfit {
 
+/// What the polygon integral of the LTC is computed by, in form and light_s, light_m, light_l. The lobe's is
+/// exact in either.
+enum class LightIntegrator {
+  kExact,        ///< exact clipping at the horizon
+  kProxySphere,  ///< the shortcut of engines: proxySphereFormFactor
+};
+
 struct MetricOptions {
   int samples = 4096;   ///< directions of each of f and g, for SW1, TV and L3
   int directions = 32;  ///< projections for SW1
   int quads = 64;       ///< random quads for form
   int lights = 64;      ///< random lights of each size for light_s, light_m, light_l
+  LightIntegrator integrator = LightIntegrator::kExact;
   std::uint64_t seed = 1;
 };
 

@@ -10,6 +10,7 @@
 
 #include "fit/entry_fit.h"
 #include "fit/sliced_wasserstein_fit.h"
+#include "fit/table_fit.h"
 #include "fit/table_plan.h"
 #include "fit/target_lobe.h"
 
@@ -69,13 +70,30 @@ Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& ta
     return fitIsotropicEntry(*target.lobe, target.metrics.moments(), fetched, fit).m;
   }
   const std::string preset = option("preset");
-  SlicedWassersteinFitOptions fit =
-      slicedWassersteinPreset(preset == "fast" || preset == "fine" ? preset : "standard");
-  for (const auto& [key, value] : table.info().provenance.options) {
-    if (key == "leak_weight" && std::holds_alternative<double>(value))
-      fit.leakWeight = std::get<double>(value);
-  }
+  const auto number = [&](std::string_view name, double otherwise) {
+    for (const auto& [key, value] : table.info().provenance.options) {
+      if (key != name) continue;
+      if (std::holds_alternative<double>(value)) return std::get<double>(value);
+      if (std::holds_alternative<std::int64_t>(value))
+        return static_cast<double>(std::get<std::int64_t>(value));
+    }
+    return otherwise;
+  };
+  const std::string known = preset == "fast" || preset == "fine" ? preset : "standard";
   std::string error;
+  if (fitter == "light") {
+    TableFitOptions light;
+    light.fitter = Fitter::kLight;
+    light.light = lightFitPreset(known);
+    const LightFitOptions standard = light.light;
+    light.light.leakWeight = number("leak_weight", standard.leakWeight);
+    light.light.lights.sizeExponent = number("size_exponent", standard.lights.sizeExponent);
+    if (!light.light.isValid(&error)) light.light = standard;  // of a damaged file
+    light.light.lights.seed = seed;
+    return fitJob({target.parameters, familyOf(target.parameters)}, table.info().brdf, light).m;
+  }
+  SlicedWassersteinFitOptions fit = slicedWassersteinPreset(known);
+  fit.leakWeight = number("leak_weight", 0.0);
   if (!fit.isValid(&error)) fit.leakWeight = 0.0;  // of a damaged file
   fit.seed = seed;
   const SlicedWassersteinTarget lobe = makeTarget(*target.lobe, familyOf(target.parameters), fit);

@@ -1,7 +1,7 @@
 # Bad input: exit 2, a message that names what is wrong, nothing written.
 . "$(dirname "$0")/common.sh" "$@"
 
-"$ltcfit" fit iso -q -o good.json --size 4x4 --samples 64 || fail "cannot make the good table"
+"$ltcfit" fit iso -q -o good.json --size 4x4 --lights 32 || fail "cannot make the good table"
 python3 - <<'PY'
 import json
 text = open('good.json').read()
@@ -66,8 +66,18 @@ expect "--alpha-floor" fit iso -o x.json --alpha-floor 0.5
 expect "--alpha-floor" fit iso -o x.json --alpha-floor abc
 expect "--theta-max" fit iso -o x.json --theta-max 1.6
 expect "--theta-max" fit iso -o x.json --theta-max 0.5
-expect "--samples" fit iso -o x.json --samples 1
-expect "--samples" fit iso -o x.json --samples 99999999999
+expect "--samples" fit iso -o x.json --fitter sw --samples 1
+expect "--samples" fit iso -o x.json --fitter sw --samples 99999999999
+expect "--samples needs" fit iso -o x.json --samples 1024
+expect "--directions needs" fit iso -o x.json --directions 64
+expect "--lights" fit iso -o x.json --lights 15
+expect "--lights needs --fitter light" fit iso -o x.json --fitter sw --lights 64
+expect "--weighting needs --fitter light" fit aniso -o x.json --fitter l3 --weighting mixed
+expect "--weighting" fit iso -o x.json --weighting heavy
+expect "--size-exponent" fit iso -o x.json --size-exponent 9
+expect "--size-exponent" fit iso -o x.json --size-exponent nan
+expect "--leak-weight" fit iso -o x.json --leak-weight nan
+expect "--integrator" score good.json --integrator sphere
 expect "--family" fit iso -o x.json --family 5
 expect "--axes" fit iso -o x.json --axes 2018
 expect "--fitter" fit iso -o x.json --fitter magic
@@ -76,13 +86,13 @@ expect "name the same file" fit iso -o x.json --report x.json
 expect "--prefix" export good.json -o y.json --prefix a
 expect "needs --fitter l3" fit iso -o x.json --family 3
 expect "needs --fitter l3" fit iso -o x.json --max-evaluations 5
-expect "needs --fitter sw" fit iso -o x.json --fitter l3 --preset fast
+expect "needs --fitter light, sw" fit iso -o x.json --fitter l3 --preset fast
 expect "needs --fitter sw-sgd" fit aniso -o x.json --preset paper
-expect "needs --fitter sw;" fit aniso -o x.json --fitter sw-sgd --preset fine
+expect "needs --fitter light or sw;" fit aniso -o x.json --fitter sw-sgd --preset fine
 expect "--resume" fit iso -o x.json --fitter l3 --resume
 expect "--leak-weight" fit iso -o x.json --leak-weight -1
 expect "--leak-weight needs" fit aniso -o x.json --fitter l3 --leak-weight 1
-expect "--directions" fit iso -o x.json --directions 2
+expect "--directions" fit iso -o x.json --fitter sw --directions 2
 expect "--size '8x8x8'" fit aniso -o x.json --size 8x8x8
 expect "--size '8x8x8x8x8'" fit aniso -o x.json --size 8x8x8x8x8
 expect "--size '8x8x8x'" fit aniso -o x.json --size 8x8x8x
@@ -93,7 +103,7 @@ expect "--theta-max" fit aniso -o x.json --theta-max 1.58
 expect "no/such" fit aniso -o no/such/x.json
 expect "--alpha-x" fit entry --alpha-x 2
 expect "--theta" fit entry --alpha-x 0.5 --theta 91
-echo "ltcfit-checkpoint 1 9 another command" > x.json.part
+echo "ltcfit-checkpoint 2 9 another command" > x.json.part
 expect "x.json.part: of a run that was interrupted" fit aniso -o x.json --size 2x2x2x2
 expect "x.json.part: holds another run" fit aniso -o x.json --size 2x2x2x2 --resume
 echo "something else, longer than any header of a checkpoint would be, whatever the options were, for certain: and then some more of it to be sure that it is longer than the whole of the command line" > x.json.part

@@ -9,9 +9,10 @@ done
 for threads in 1 2; do
   "$ltcfit" fit aniso -q -o a$threads.json --size 3x4x3x3 --threads $threads || fail "aniso, threads $threads"
   "$ltcfit" fit aniso -q -o s$threads.json --size 2x2x2x2 --fitter sw-sgd --threads $threads || fail "sw-sgd, threads $threads"
+  "$ltcfit" fit aniso -q -o w$threads.json --size 3x3x3x3 --fitter sw --threads $threads || fail "sw, threads $threads"
   "$ltcfit" fit iso -q -o l$threads.json --size 8x8 --fitter l3 --threads $threads || fail "l3, threads $threads"
 done
-cmp -s a1.json a2.json && cmp -s s1.json s2.json && cmp -s l1.json l2.json || fail "2 threads give another table"
+cmp -s a1.json a2.json && cmp -s s1.json s2.json && cmp -s w1.json w2.json && cmp -s l1.json l2.json || fail "2 threads give another table"
 "$ltcfit" fit iso -q -o again.json --size 16x16 && cmp -s t1.json again.json || fail "a second run gives another table"
 "$ltcfit" fit iso -q -o seed.json --size 16x16 --seed 2 && ! cmp -s t1.json seed.json || fail "the seed changes nothing"
 "$ltcfit" score -q t1.json --points off-grid --count 20 --threads 1 > s1.txt

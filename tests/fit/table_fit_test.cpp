@@ -33,6 +33,7 @@ TableFitOptions quick() {
   o.sgd.steps = 60;
   o.sgd.samples = 256;
   o.l3.samples = 256;
+  o.light.lights.lights = 64;
   return o;
 }
 
@@ -90,7 +91,8 @@ TEST(TablePlan, OptionsAreChecked) {
 }
 
 TEST(TableFit, EveryFitterMakesAUsableSymmetricTable) {
-  for (const Fitter fitter : {Fitter::kSlicedWasserstein, Fitter::kSlicedWassersteinSgd, Fitter::kL3}) {
+  for (const Fitter fitter :
+       {Fitter::kLight, Fitter::kSlicedWasserstein, Fitter::kSlicedWassersteinSgd, Fitter::kL3}) {
     for (const SymmetryMode mode : {SymmetryMode::kDuring, SymmetryMode::kAfter}) {
       const TablePlan plan = planAnisotropicTable(smallTable(), mode);
       TableFitOptions options = quick();

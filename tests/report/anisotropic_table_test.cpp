@@ -8,15 +8,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
+#include <tuple>
 
 #include "export/read_table.h"
 #include "fit/moment_start.h"
 #include "fit/projected_cdf_loss.h"
+#include "fit/table_fit.h"
 #include "fit/table_plan.h"
 #include "fit/target_lobe.h"
 #include "ggx/ggx_lobe.h"
 #include "ggx/random.h"
 #include "ltc/ltc.h"
+#include "report/score.h"
 
 namespace ltcfit {
 namespace {
@@ -147,11 +150,44 @@ TEST(AnisotropicTable, NormAndFresnelAgreeWithSamplingAtEveryNode) {
   EXPECT_LT(worst, 1e-3);
 }
 
-// SW1 of a table's own node, on samples that no fit has seen.
-double unseenSw1(const Table& table, std::size_t i, int samples, int slices) {
-  const auto node = table.node(i);
-  const auto lobe = makeTargetLobe("ggx", table.parameters(node));
-  const LobeSamples target = weightedSamples(*lobe, samples, 77);
+const char* referencePath() {
+  return LTCFIT_REFERENCE_DIR "/kt2022-alpha-lambda-theta-phi.npy";
+}
+
+TEST(AnisotropicTable, BeatsThePublishedOneOnLights) {
+  if (!std::filesystem::exists(referencePath()))
+    GTEST_SKIP() << "the published tables are not at " << referencePath() << " (LTCFIT_REFERENCE_DIR)";
+  const Table theirs = readTable(referencePath());
+  ScoreOptions options;
+  options.metrics.samples = 256;
+  options.metrics.directions = 2;
+  options.metrics.quads = 16;
+  options.metrics.seed = 31;
+  options.count = 800;
+  // of the published table's mean: limits some hundredths above the figures of DESIGN.md over all nodes and
+  // more lights, since the rarest lights carry much of each mean. "below" has its own.
+  for (const auto& [set, small, medium, large, below] :
+       {std::tuple{PointSet::kOffGrid, 0.97, 0.95, 1.0, 1.15},
+        std::tuple{PointSet::kExtreme, 0.97, 0.97, 1.02, 1.0}}) {
+    options.set = set;
+    const std::vector<Score> scores = scoreTables({&ours(), &theirs}, options);
+    const auto ratio = [&](Metric m) {
+      const auto k = static_cast<std::size_t>(m);
+      return scores[0].summary[k].mean / scores[1].summary[k].mean;
+    };
+    EXPECT_LT(ratio(Metric::kLightS), small) << pointSetName(set);
+    EXPECT_LT(ratio(Metric::kLightM), medium) << pointSetName(set);
+    EXPECT_LT(ratio(Metric::kLightL), large) << pointSetName(set);
+    EXPECT_LT(ratio(Metric::kBelow), below) << pointSetName(set);
+    std::printf("%s: light s/m/l %.3f %.3f %.3f, below %.3f of the published table's\n",
+                std::string(pointSetName(set)).c_str(), ratio(Metric::kLightS), ratio(Metric::kLightM),
+                ratio(Metric::kLightL), ratio(Metric::kBelow));
+  }
+}
+
+// SW1 of a matrix on samples that no fit has seen.
+double unseenSw1(const Lobe& lobe, const Matrix3d& m, std::size_t i, int samples, int slices) {
+  const LobeSamples target = weightedSamples(lobe, samples, 77);
   Random random(1000 + i);
   std::vector<Vector3d> directions;
   for (int k = 0; k < slices; ++k) {
@@ -161,30 +197,33 @@ double unseenSw1(const Table& table, std::size_t i, int samples, int slices) {
     directions.emplace_back(r * std::cos(phi), r * std::sin(phi), z);
   }
   ProjectedCdfLoss loss(target, momentStart(target), cosineSamples(samples, 78), directions);
-  return loss(table.entry(node).m, nullptr);
+  return loss(m, nullptr);
 }
 
-TEST(AnisotropicTable, BeatsThePublishedOneAtTheNodesTheyShare) {
-  const std::string path = std::string(LTCFIT_REFERENCE_DIR) + "/kt2022-alpha-lambda-theta-phi.npy";
-  if (!std::filesystem::exists(path))
-    GTEST_SKIP() << "the published tables are not at " << path << " (LTCFIT_REFERENCE_DIR)";
-  const Table theirs = readTable(path);
-  const Table& t = ours();
+TEST(SlicedWassersteinNodes, BeatThePublishedOnes) {
+  if (!std::filesystem::exists(referencePath()))
+    GTEST_SKIP() << "the published tables are not at " << referencePath() << " (LTCFIT_REFERENCE_DIR)";
+  const Table theirs = readTable(referencePath());
   double sum = 0.0;
   double theirSum = 0.0;
   double worst = 0.0;
-  // theirs ends at 0.9999 pi/2, where sharp lobes are others than at pi/2: those nodes are compared by
-  // tests/app/published.sh with a table of that last angle
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : sum, theirSum) reduction(max : worst)
-  for (std::size_t i = 0; i < t.nodeCount(); ++i) {
-    if (t.node(i)[2] == 7) continue;
-    double a = unseenSw1(t, i, 4096, 32);
-    double b = unseenSw1(theirs, i, 4096, 32);
+  TableFitOptions options;
+  options.fitter = Fitter::kSlicedWasserstein;
+  // every fifth node: all axes are of length 8, so that each value of each comes up
+#pragma omp parallel for schedule(dynamic, 4) reduction(+ : sum, theirSum) reduction(max : worst)
+  for (std::size_t i = 0; i < theirs.nodeCount(); i += 5) {
+    const auto node = theirs.node(i);
+    if (node[2] == 7) continue;  // 0.9999 pi/2, where sharp lobes are half cut by the horizon
+    const LobeParameters p = theirs.parameters(node);
+    const auto lobe = makeTargetLobe("ggx", p);
+    const Matrix3d m = fitJob({p, familyOf(p)}, "ggx", options).m;
+    double a = unseenSw1(*lobe, m, i, 4096, 32);
+    double b = unseenSw1(*lobe, theirs.entry(node).m, i, 4096, 32);
     sum += a;
     theirSum += b;
     if (a > 1.005 * b) {  // close: once more, without the noise
-      a = unseenSw1(t, i, 65536, 512);
-      b = unseenSw1(theirs, i, 65536, 512);
+      a = unseenSw1(*lobe, m, i, 65536, 512);
+      b = unseenSw1(*lobe, theirs.entry(node).m, i, 65536, 512);
     }
     worst = std::max(worst, a / b);
   }

@@ -1,0 +1,73 @@
+// Least squares over polygon lights: the residual is what a renderer computes.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fit/matrix_family.h"
+#include "fit/optimizer.h"
+#include "fit/polygon_lights.h"
+
+namespace ltcfit {
+
+struct LightFitOptions {
+  PolygonLightOptions lights;
+  /// Mass below the horizon counts leakWeight times the RMS light error of the start, 0..100: see lightCost.
+  double leakWeight = 0.05;
+  int maxIterations = 50;  ///< of Levenberg-Marquardt
+  double relativeCostTolerance = 1e-4;
+
+  bool isValid(std::string* error) const;
+};
+
+/// Options by name: "fast" (the default of isotropic tables), "standard" (of anisotropic ones) and "fine":
+/// numbers of lights. Throws std::invalid_argument for another name.
+LightFitOptions lightFitPreset(std::string_view name);
+
+/// The least-squares problem about a matrix: residuals
+///   weight_j (integral of the LTC of m over light j - integral_j), one for each light,
+///   leak v.x / (2 |v| cos(psi / 2)) and the same with v.y, v = row 2 of m, psi its angle to the normal:
+///   their squares add up to leak^2 times the mass below the horizon, sin(psi / 2)^2 (Ltc::massBelowHorizon).
+struct LightProblem {
+  const std::vector<PolygonLight>* lights;
+  double leak;
+  MatrixFamily family;
+
+  std::size_t residualCount() const { return lights->size() + 2; }
+  /// Half the sum of squares.
+  double cost(const Eigen::Matrix3d& m) const;
+  /// Residuals at base (I + sum of p_k B_k) and, unless null, their derivatives by p: residualCount() rows of
+  /// one column for each matrix of familyBasis(). False where the matrix has no positive determinant.
+  bool evaluate(const Eigen::Matrix3d& base, const double* p, double* residuals, double* jacobian) const;
+};
+
+struct LightFit {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Identity();  ///< det > 0, third column of length 1
+  double startCost = 0.0;                           ///< LightProblem::cost of the start
+  double cost = 0.0;                                ///< at the end
+  int evaluations = 0;
+  Termination termination = Termination::kFailure;
+  double integralError = 0.0;  ///< PolygonLights::integralError, where fitLights made the lights
+};
+
+/// Minimises the problem over the matrices of its family from `start`, det > 0, by Levenberg-Marquardt
+/// (Ceres, dense QR).
+LightFit solveLightProblem(const LightProblem& problem, const Eigen::Matrix3d& start,
+                           const LightFitOptions& options);
+
+/// What a fit knows of its lobe.
+struct LightTarget {
+  const ContourIntegrator& truth;
+  double albedo;
+  MatrixFamily family;
+  Eigen::Matrix3d momentStart;  ///< a matrix of the family that overlaps the lobe
+};
+
+/// Two rounds: few lights about target.momentStart, then all about what these gave. From a `start` (of the
+/// family, det != 0) that leads the first round above the cost of target.momentStart, it begins again there.
+/// Costs are those of the second round, evaluations those of both.
+LightFit fitLights(const LightTarget& target, const Eigen::Matrix3d& start, const LightFitOptions& options);
+
+}  // namespace ltcfit
