@@ -1,6 +1,7 @@
 // ltcfit fit entry: one lobe, for those who want to look at a fit or to time it.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "fit/moment_start.h"
 #include "fit/target_lobe.h"
 #include "ltc/ltc.h"
+#include "report/metrics.h"
 
 namespace ltcfit::app {
 namespace {
@@ -36,16 +38,24 @@ int fitEntryCommand(const EntryArguments& a) {
   const LobeParameters p{a.alphaX, a.alphaY > 0.0 ? a.alphaY : a.alphaX, radians(a.theta), radians(a.phi)};
   const TableFitOptions options = toFitOptions(a.fit);
   const Stopwatch watch;
-  const JobResult r = fitJob({p, familyOf(p)}, "ggx", options);
+  JobResult r = fitJob({p, familyOf(p)}, "ggx", options);
   const Times times = watch.elapsed();
   if (!r.fitted) {
     fmt::print(stderr, "ltcfit: the fit ended with a matrix without an inverse\n");
     return kExitQuality;
   }
+  r.m = projectOnFamily(r.m, familyOf(p));
   const std::unique_ptr<Lobe> lobe = makeTargetLobe("ggx", p);
   const double sw1 = unseenSw1(*lobe, r.m, static_cast<std::uint64_t>(a.fit.seed));
-  const double spread = computeMoments(*lobe).spread;
-  const double below = Ltc(r.m).massBelowHorizon();
+  MetricOptions unseen;
+  unseen.samples = 1024;
+  unseen.lights = 512;
+  unseen.seed = static_cast<std::uint64_t>(a.fit.seed) + 1;
+  const MetricTarget target(*lobe, unseen);
+  const EntryMetrics metrics = target.evaluate(Ltc(r.m));
+  const double spread = target.moments().spread;
+  const double below = metrics.get(Metric::kBelow);
+  constexpr std::array<Metric, 3> kLights{Metric::kLightS, Metric::kLightM, Metric::kLightL};
   if (a.fit.json) {
     nlohmann::ordered_json out{
         {"alpha_x", p.alphaX},      {"alpha_y", p.alphaY},
@@ -61,6 +71,7 @@ int fitEntryCommand(const EntryArguments& a) {
                 {"start_sw1", r.startLoss},
                 {"fit_sw1", r.loss}});
     out["unseen"] = {{"SW1", sw1}, {"SW1rel", sw1 / spread}};
+    for (const Metric m : kLights) out["unseen"][metricName(m)] = metrics.get(m);
     out["below"] = below;
     fmt::print("{}\n", out.dump(2));
     return kExitOk;
@@ -74,6 +85,8 @@ int fitEntryCommand(const EntryArguments& a) {
              r.evaluations, terminationName(r.termination), times.cpu, r.loss, r.startLoss);
   fmt::print("SW1 on unseen samples {:.6f}, {:.4f} of the lobe's spread; below the horizon {:.5f}\n", sw1,
              sw1 / spread, below);
+  fmt::print("RMS error of unseen lights: small {:.3e}, medium {:.3e}, large {:.3e}\n",
+             metrics.get(kLights[0]), metrics.get(kLights[1]), metrics.get(kLights[2]));
   return kExitOk;
 }
 

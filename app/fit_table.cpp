@@ -48,6 +48,7 @@ std::string reportCsv(const TablePlan& plan, const TableFitResult& result) {
   std::string out =
       "alpha_x,alpha_y,theta,phi,family,termination,evaluations,start_sw1,fit_sw1,aligned_sw1,symmetric_sw1,"
       "stored_sw1,alignment_before,alignment_after,alignment_strength,flip_closer,norm,fresnel,moment_error,"
+      "integral_error,"
       "usable\n";
   std::vector<bool> usable(plan.jobs.size(), true);
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
@@ -56,11 +57,11 @@ std::string reportCsv(const TablePlan& plan, const TableFitResult& result) {
     const LobeParameters& p = plan.jobs[i].parameters;
     const JobResult& r = result.jobs[i];
     fmt::format_to(std::back_inserter(out),
-                   "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{:d}\n", p.alphaX, p.alphaY,
+                   "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:d},{},{},{},{},{:d}\n", p.alphaX, p.alphaY,
                    p.theta, p.phi, familyLabel(plan.jobs[i].family), terminationName(r.termination),
                    r.evaluations, r.startLoss, r.loss, r.alignedLoss, r.symmetricLoss, r.storedLoss,
                    r.distanceBefore, r.distanceAfter, r.alignmentStrength, r.flipWouldBeCloser, r.norm,
-                   r.fresnel, r.momentError, static_cast<bool>(usable[i]));
+                   r.fresnel, r.momentError, r.integralError, static_cast<bool>(usable[i]));
   }
   return out;
 }
@@ -72,6 +73,8 @@ void printText(const FitArguments& a, const TablePlan& plan, const TableFitResul
   if (resumed > 0) fmt::print("{} of the lobes are from the interrupted run\n", resumed);
   fmt::print("not converged {}, unusable {}, weakly aligned {}; norm and Fresnel within {:.0e}\n",
              result.notConverged, result.unusable, result.weaklyAligned, result.largestMomentError);
+  if (a.fitter == "light")
+    fmt::print("true light integrals within {:.0e} (estimated)\n", result.largestIntegralError);
   fmt::print("SW1 by the fit's own samples, after each step:\n");
   for (const Step& step : kSteps) {
     const Summary s = summarizeJobs(result, step.loss);
@@ -96,7 +99,8 @@ nlohmann::ordered_json toJson(const FitArguments& a, const TablePlan& plan, cons
                              {"not_converged", result.notConverged},
                              {"unusable", result.unusable},
                              {"weakly_aligned", result.weaklyAligned},
-                             {"moment_error", result.largestMomentError}};
+                             {"moment_error", result.largestMomentError},
+                             {"integral_error", result.largestIntegralError}};
   for (const Step& step : kSteps) {
     const Summary s = summarizeJobs(result, step.loss);
     out["sw1"][step.name] = {{"mean", s.mean}, {"p50", s.p50}, {"p99", s.p99}, {"max", s.max}};
