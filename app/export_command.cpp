@@ -25,6 +25,7 @@ struct ExportArguments {
 
 int exportTable(const ExportArguments& a) {
   checkWritable(a.output);
+  if (isSameFile(a.output, a.input)) throw InputError(a.input + ": --output would overwrite this table");
   // by the name where nothing is said
   const std::string extension = std::filesystem::path(a.output).extension().string();
   const std::string format = !a.format.empty() ? a.format : extension == ".json" ? "json" : "h";

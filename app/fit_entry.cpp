@@ -62,6 +62,13 @@ int fitEntryCommand(const EntryArguments& a) {
         {"theta_degrees", a.theta}, {"phi_degrees", a.phi},
         {"fitter", a.fit.fitter},   {"preset", a.fit.fitter == "l3" ? "" : presetOf(a.fit)},
         {"seed", a.fit.seed}};
+    if (options.fitter == Fitter::kLight) {
+      out.update({{"lights", options.light.lights.lights},
+                  {"weighting", a.fit.weighting},
+                  {"size_exponent", options.light.lights.sizeExponent},
+                  {"leak_weight", options.light.leakWeight},
+                  {"integral_error", r.integralError}});
+    }
     for (int row = 0; row < 3; ++row) out["m"].push_back({r.m(row, 0), r.m(row, 1), r.m(row, 2)});
     out.update({{"norm", r.norm},
                 {"fresnel", r.fresnel},

@@ -145,7 +145,14 @@ int refuseUnusable(std::size_t unusable, const FitArguments& a) {
   fmt::print(stderr,
              "ltcfit: {} entries are unusable (no inverse in float32, or worse than no light): no table was "
              "written{}\n",
-             unusable, a.reportPath.empty() ? "; --report FILE.csv lists them" : "");
+             unusable,
+             !a.reportPath.empty() ? ""
+             : isWarmStartedL3(a)  ? "; --report FILE.csv lists them"
+             : isStream(a.output)
+                 ? "; --report FILE.csv lists them"
+                 : fmt::format("; --resume --report FILE.csv lists them at once, without {}.part a "
+                               "run starts anew",
+                               a.output));
   return kExitQuality;
 }
 

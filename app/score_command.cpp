@@ -85,12 +85,22 @@ void printRatios(const Score& ours, const Score& theirs) {
   }
 }
 
+// Largest ratio of SW1 at one point, which the ratio of the maxima hides; NaN without finite ratios.
+double worstRatio(const Score& ours, const Score& theirs) {
+  double worst = std::nan("");
+  for (std::size_t i = 0; i < ours.all.size(); ++i) {
+    const double ratio = ours.all[i].metrics.get(Metric::kSw1) / theirs.all[i].metrics.get(Metric::kSw1);
+    if (std::isfinite(ratio)) worst = std::fmax(worst, ratio);
+  }
+  return worst;
+}
+
 // Means of more than two tables next to each other; the tables by number.
 void printSideBySide(const ScoreArguments& a, const std::vector<Score>& scores) {
   fmt::print("\nmeans               ");
   for (std::size_t t = 0; t < scores.size(); ++t) fmt::print("{:>11}", fmt::format("[{}]", t + 1));
   fmt::print("   over [{}]:", scores.size());
-  for (std::size_t t = 0; t + 1 < scores.size(); ++t) fmt::print("{:>8}", fmt::format("[{}]", t + 1));
+  for (std::size_t t = 0; t + 1 < scores.size(); ++t) fmt::print("{:>11}", fmt::format("[{}]", t + 1));
   fmt::print("\n");
   for (std::size_t m = 0; m < kMetricCount; ++m) {
     const auto mean = [&](const Score& score) {
@@ -105,12 +115,14 @@ void printSideBySide(const ScoreArguments& a, const std::vector<Score>& scores) 
     fmt::print("           ");
     for (std::size_t t = 0; t + 1 < scores.size(); ++t) {
       const double ratio = mean(scores[t]) / mean(scores.back());
-      fmt::print("{:>8}", shown(ratio, fmt::format("{:.3f}", ratio)));
+      fmt::print("{:>11}", shown(ratio, ratio < 1e4 ? fmt::format("{:.3f}", ratio) : number(ratio)));
     }
     fmt::print("\n");
   }
   fmt::print("[1] {}\n", a.table);
-  for (std::size_t t = 0; t < a.against.size(); ++t) fmt::print("[{}] {}\n", t + 2, a.against[t]);
+  for (std::size_t t = 1; t < scores.size(); ++t)
+    fmt::print("[{}] {}; largest SW1 of [1] over its own at one point: {:.3f}\n", t + 1, a.against[t - 1],
+               worstRatio(scores[0], scores[t]));
 }
 
 nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
@@ -159,19 +171,15 @@ std::string reportCsv(const std::vector<Score>& scores) {
   return out;
 }
 
-// Largest ratio of SW1 at one point, which the ratio of the maxima hides; NaN without finite ratios.
-double worstRatio(const Score& ours, const Score& theirs) {
-  double worst = std::nan("");
-  for (std::size_t i = 0; i < ours.all.size(); ++i) {
-    const double ratio = ours.all[i].metrics.get(Metric::kSw1) / theirs.all[i].metrics.get(Metric::kSw1);
-    if (std::isfinite(ratio)) worst = std::fmax(worst, ratio);
-  }
-  return worst;
-}
-
 int scoreCommand(const ScoreArguments& a) {
   if (!std::isfinite(a.minAlpha)) throw InputError("--min-alpha must be a number in 0..1");
-  if (!a.reportPath.empty()) checkWritable(a.reportPath);
+  if (!a.reportPath.empty()) {
+    checkWritable(a.reportPath);
+    std::vector<std::string> inputs = a.against;
+    inputs.push_back(a.table);
+    for (const std::string& input : inputs)
+      if (isSameFile(a.reportPath, input)) throw InputError(input + ": --report would overwrite this table");
+  }
   const Table table = readForScore(a, a.table);
   std::vector<Table> others;
   for (const std::string& path : a.against) {
@@ -207,21 +215,24 @@ int scoreCommand(const ScoreArguments& a) {
 
   if (!a.reportPath.empty()) writeFileAtomically(a.reportPath, reportCsv(scores));
   if (a.json) {
-    nlohmann::ordered_json out{
-        {"points", a.points},       {"count", scores[0].points},    {"min_alpha", a.minAlpha},
-        {"seed", a.seed},           {"samples", a.metrics.samples}, {"directions", a.metrics.directions},
-        {"quads", a.metrics.quads}, {"lights", a.metrics.lights},   {"integrator", a.integrator}};
+    nlohmann::ordered_json out{{"points", a.points},           {"count", scores[0].points},
+                               {"min_alpha", a.minAlpha},      {"seed", a.seed},
+                               {"samples", a.metrics.samples}, {"directions", a.metrics.directions},
+                               {"quads", a.metrics.quads},     {"lights", a.metrics.lights},
+                               {"integrator", a.integrator},   {"stored_as", a.storedAs}};
     out["tables"] = {toJson(a.table, scores[0])};
-    for (std::size_t t = 1; t < scores.size(); ++t)
+    for (std::size_t t = 1; t < scores.size(); ++t) {
       out["tables"].push_back(toJson(a.against[t - 1], scores[t]));
-    if (scores.size() > 1) out["worst_sw1_ratio"] = worstRatio(scores[0], scores[1]);
+      out["tables"].back()["worst_sw1_ratio_of_first"] = worstRatio(scores[0], scores[t]);
+    }
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return kExitOk;
   }
-  fmt::print("{} points{}, seed {}; {} samples, {} directions, {} quads, {} lights of each size\n\n",
+  fmt::print("{} points{}, seed {}; {} samples, {} directions, {} quads, {} lights of each size{}\n\n",
              scores[0].points,
              a.points == "nodes" ? fmt::format(" of {} nodes", table.nodeCount()) : " " + a.points, a.seed,
-             a.metrics.samples, a.metrics.directions, a.metrics.quads, a.metrics.lights);
+             a.metrics.samples, a.metrics.directions, a.metrics.quads, a.metrics.lights,
+             a.integrator == "exact" ? "" : " by proxy spheres");
   fmt::print("{} ({})\n", a.table, describe(table));
   printSummaries(scores[0]);
   for (std::size_t t = 1; t < scores.size(); ++t) {
@@ -256,8 +267,9 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
       ->type_name("FILE");
   command
       ->add_option("--against", a->against,
-                   "Other tables, scored at the same points; two or more are shown side by side")
-      ->type_name("FILE...");
+                   "Another table, scored at the same points; may be given more than once: then side by side")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--points", a->points,

@@ -130,6 +130,12 @@ void writeFileAtomically(const std::string& path, std::string_view bytes) {
   rename();
 }
 
+bool isSameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  const bool same = std::filesystem::equivalent(a, b, error);
+  return !error && same && !isStream(a);
+}
+
 void checkWritable(const std::string& path) {
   std::error_code ignored;
   if (path.empty()) throw InputError("the output path is empty");

@@ -34,6 +34,9 @@ void writeFileAtomically(const std::string& path, std::string_view bytes);
 /// folder itself): asked before a long run, not after it.
 void checkWritable(const std::string& path);
 
+/// Whether both paths lead to one file, by links too; false where either does not exist or is a stream.
+bool isSameFile(const std::string& a, const std::string& b);
+
 /// Whether bytes written to `path` go through it (a device, a pipe, /dev/stdout) instead of replacing a file.
 bool isStream(const std::string& path);
 

@@ -21,6 +21,8 @@ namespace {
 
 // Lights of the first round, which only has to aim those of the second.
 constexpr int kFirstLights = 64;
+// See makeProblem. What lights see at all has a curvature some hundred times larger.
+constexpr double kPriorShare = 0.1;
 
 class Residuals final : public ceres::CostFunction {
  public:
@@ -52,13 +54,19 @@ Matrix3d scaled(const Matrix3d& m) {
   return out;
 }
 
-// leak such that leak^2 below, next to n squares of light errors of mean square e^2, is leakWeight n e below:
-// the change of their RMS with the mass below, in multiples of leakWeight / 2.
-double leakOf(const std::vector<PolygonLight>& lights, const Matrix3d& m, MatrixFamily family,
-              double leakWeight) {
+// The problem over lights, its other weights in units of the light error e of the matrix `near` (RMS):
+// leak^2 below is leakWeight n e below next to the n squares, the change of their RMS with the mass below in
+// multiples of leakWeight / 2; the prior makes a step of 1, about the whole matrix, cost kPriorShare of n
+// e^2.
+LightProblem makeProblem(const std::vector<PolygonLight>& lights, const LightTarget& target,
+                         const Matrix3d& near, const LightFitOptions& options) {
+  LightProblem problem{.lights = &lights, .family = target.family};
   const double n = static_cast<double>(lights.size());
-  const double squares = 2.0 * LightProblem{&lights, 0.0, family}.cost(m);
-  return std::sqrt(leakWeight * n * std::sqrt(squares / n));
+  const double error = std::sqrt(2.0 * problem.cost(near) / n);
+  problem.leak = std::sqrt(options.leakWeight * n * error);
+  problem.prior = error * std::sqrt(kPriorShare * n);
+  problem.reference = target.momentStart;
+  return problem;
 }
 
 }  // namespace
@@ -95,7 +103,7 @@ bool LightProblem::evaluate(const Matrix3d& base, const double* p, double* resid
   Matrix3d change = Matrix3d::Identity();
   for (std::size_t k = 0; k < count; ++k) change += p[k] * basis[k];
   const Matrix3d m = base * change;
-  if (!(m.determinant() > 0.0) || !m.allFinite()) return false;
+  if (!(m.determinant() > 0.0) || !m.inverse().allFinite()) return false;
   const Ltc ltc(m);
   const RowVector3d v = m.row(2);
   const double length = v.norm();
@@ -105,6 +113,10 @@ bool LightProblem::evaluate(const Matrix3d& base, const double* p, double* resid
   double* const last = residuals + lights->size();
   last[0] = scale * v.x();
   last[1] = scale * v.y();
+  const Matrix3d q = prior > 0.0 ? Matrix3d(reference.inverse() * m) : Matrix3d(Matrix3d::Identity());
+  const double unit = q.trace() / 3.0;
+  if (!(unit > 0.0)) return false;
+  for (std::size_t k = 0; k < count; ++k) last[2 + k] = prior * q.cwiseProduct(basis[k]).sum() / unit;
   if (jacobian == nullptr) {
     for (std::size_t j = 0; j < lights->size(); ++j) {
       const PolygonLight& l = (*lights)[j];
@@ -129,6 +141,14 @@ bool LightProblem::evaluate(const Matrix3d& base, const double* p, double* resid
     const double ds = -0.5 * scale * (dl / length + (dl + dv.z()) / (length + v.z()));
     row[k] = scale * dv.x() + ds * v.x();
     row[count + k] = scale * dv.y() + ds * v.y();
+  }
+  row += 2 * count;
+  for (std::size_t j = 0; j < count; ++j) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const Matrix3d dq = q * relative[k];
+      *row++ = prior > 0.0 ? prior / unit * (dq - dq.trace() / (3.0 * unit) * q).cwiseProduct(basis[j]).sum()
+                           : 0.0;
+    }
   }
   return true;
 }
@@ -173,12 +193,13 @@ LightFit solveLightProblem(const LightProblem& problem, const Matrix3d& start,
   return fit;
 }
 
-LightFit fitLights(const LightTarget& target, const Matrix3d& start, const LightFitOptions& options) {
+LightFit fitLights(const LightTarget& given, const Matrix3d& start, const LightFitOptions& options) {
+  LightTarget target = given;
+  target.momentStart = scaled(given.momentStart);
   PolygonLightOptions few = options.lights;
   few.lights = std::min(kFirstLights, few.lights);
   const PolygonLights first = makePolygonLights(target.truth, target.albedo, target.momentStart, few);
-  const double firstLeak = leakOf(first.lights, target.momentStart, target.family, options.leakWeight);
-  const LightProblem aiming{&first.lights, firstLeak, target.family};
+  const LightProblem aiming = makeProblem(first.lights, target, target.momentStart, options);
   LightFit aimed = solveLightProblem(aiming, start, options);
   int evaluations = aimed.evaluations;
   if (!(aimed.cost <= aiming.cost(target.momentStart))) {
@@ -187,8 +208,7 @@ LightFit fitLights(const LightTarget& target, const Matrix3d& start, const Light
   }
 
   const PolygonLights all = makePolygonLights(target.truth, target.albedo, aimed.m, options.lights);
-  const LightProblem problem{&all.lights, leakOf(all.lights, aimed.m, target.family, options.leakWeight),
-                             target.family};
+  const LightProblem problem = makeProblem(all.lights, target, aimed.m, options);
   LightFit out = solveLightProblem(problem, aimed.m, options);
   out.evaluations += evaluations;
   out.integralError = all.integralError;

@@ -29,17 +29,22 @@ LightFitOptions lightFitPreset(std::string_view name);
 /// The least-squares problem about a matrix: residuals
 ///   weight_j (integral of the LTC of m over light j - integral_j), one for each light,
 ///   leak v.x / (2 |v| cos(psi / 2)) and the same with v.y, v = row 2 of m, psi its angle to the normal:
-///   their squares add up to leak^2 times the mass below the horizon, sin(psi / 2)^2 (Ltc::massBelowHorizon).
+///   their squares add up to leak^2 times the mass below the horizon, sin(psi / 2)^2 (Ltc::massBelowHorizon),
+///   prior <B_k, Q> / (tr Q / 3), Q = reference^-1 m, one for each matrix B_k of familyBasis(): how far m is
+///   from a reference. It decides what no light sees, as the small axis of a needle.
 struct LightProblem {
   const std::vector<PolygonLight>* lights;
-  double leak;
   MatrixFamily family;
+  double leak = 0.0;
+  double prior = 0.0;
+  Eigen::Matrix3d reference = Eigen::Matrix3d::Identity();  ///< det != 0
 
-  std::size_t residualCount() const { return lights->size() + 2; }
+  std::size_t residualCount() const { return lights->size() + 2 + familyBasis(family).size(); }
   /// Half the sum of squares.
   double cost(const Eigen::Matrix3d& m) const;
   /// Residuals at base (I + sum of p_k B_k) and, unless null, their derivatives by p: residualCount() rows of
-  /// one column for each matrix of familyBasis(). False where the matrix has no positive determinant.
+  /// one column for each matrix of familyBasis(). False where the matrix has no positive determinant, tr Q is
+  /// not positive, or the whole lobe lies below the horizon.
   bool evaluate(const Eigen::Matrix3d& base, const double* p, double* residuals, double* jacobian) const;
 };
 

@@ -183,18 +183,22 @@ PolygonLights makePolygonLights(const ContourIntegrator& truth, double albedo, c
     const auto sized = [&](double factor) {
       return facingRectangle(centre, Vector2d::Zero(), factor * half, d.angle);
     };
+    // with the light below the horizon that would have been mirrored to this one
+    const Vector3d mirrored(centre.x(), centre.y(), -centre.z());
+    const auto held = [&](double factor) {
+      return std::max(0.0, ltcPolygonIntegral(ltc, sized(factor))) +
+             std::max(0.0, ltcPolygonIntegral(
+                               ltc, facingRectangle(mirrored, Vector2d::Zero(), factor * half, d.angle)));
+    };
     const Quad quad = sized(1.0);
     const PolygonIntegral integral = truth.integrate(quad);
     out.integralError = std::max(out.integralError, integral.error / albedo);
     // A light whose random point follows the LTC has its centre at z with the LTC's mean density over the
     // light at z, or over its rim; against 1 / (2 pi) of the uniform ones. (On the sphere: the point is
     // uniform on the plane, which for large lights is not the same.)
-    const double held = std::max(0.0, ltcPolygonIntegral(ltc, quad));
-    const double outer = ltcPolygonIntegral(ltc, sized(1.0 + frame));
-    const double inner = ltcPolygonIntegral(ltc, sized(1.0 - frame));
-    const double overLight = held / solidAngle(half);
-    const double overRim =
-        std::max(0.0, outer - inner) / (solidAngle((1.0 + frame) * half) - solidAngle((1.0 - frame) * half));
+    const double overLight = held(1.0) / solidAngle(half);
+    const double overRim = std::max(0.0, held(1.0 + frame) - held(1.0 - frame)) /
+                           (solidAngle((1.0 + frame) * half) - solidAngle((1.0 - frame) * half));
     const double density = kUniform + 2.0 * std::numbers::pi * (kInside * overLight + kRim * overRim);
     const double share = std::max(0.0, integral.value / albedo);
     out.lights.push_back(

@@ -17,6 +17,9 @@ namespace {
 
 using Eigen::Matrix3d;
 
+// A light-space fit whose SW1 is so many times that of its start has lost the lobe.
+constexpr double kWorstLoss = 1.5;
+
 Matrix3d unitThirdColumn(const Matrix3d& m) {
   return normalized(m, MatrixNormalization::kThirdColumnUnit);
 }
@@ -121,16 +124,18 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOption
     case Fitter::kLight: {
       const ContourIntegrator truth(*lobe);
       const LightTarget lights{truth, moments.albedo, job.family, target.start};
-      LightFit fit = fitLights(lights, target.start, options.light);
-      r.evaluations = fit.evaluations;
-      if (fit.termination == Termination::kFailure) {
-        const SlicedWassersteinFit sw = fitSlicedWasserstein(target, target.start, options.sw, judge);
-        fit = fitLights(lights, sw.m, options.light);
-        r.evaluations += sw.evaluations + fit.evaluations;
-      }
+      const LightFit fit = fitLights(lights, target.start, options.light);
       m = fit.m;
+      r.evaluations = fit.evaluations;
       r.termination = fit.termination;
       r.integralError = fit.integralError;
+      // Lights that do not hold the lobe: the other fit does.
+      if (fit.termination == Termination::kFailure || judge(m, nullptr) > kWorstLoss * r.startLoss) {
+        const SlicedWassersteinFit sw = fitSlicedWasserstein(target, target.start, options.sw, judge);
+        m = sw.m;
+        r.evaluations += sw.evaluations;
+        r.termination = sw.termination;
+      }
       break;
     }
   }

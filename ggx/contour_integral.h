@@ -12,9 +12,9 @@
 namespace ltcfit {
 
 struct ContourIntegratorOptions {
-  int azimuths = 64;  ///< rays of the table, a multiple of 4
-  int radii = 32;     ///< cells along each
-  /// A piece of an edge is split while its integral and that of its halves differ by more than this.
+  int azimuths = 80;  ///< rays of the table, a multiple of 4, at least 16
+  int radii = 32;     ///< cells along each, at least 4
+  /// A piece of an edge is split while its integral and that of its halves differ by more than this, > 0.
   double tolerance = 1e-5;
 };
 
@@ -28,10 +28,11 @@ struct ContourIntegratorOptions {
 /// outline. K is tabulated over azimuth and over the radius up to the horizon.
 class ContourIntegrator {
  public:
+  /// The lobe is not kept. Options out of range are a caller's bug and abort.
   explicit ContourIntegrator(const Lobe& lobe, const ContourIntegratorOptions& options = {});
 
-  /// As integrateLobeOverPolygon. `error` sums the differences between pieces of edges and their halves; the
-  /// table's own error is not in it (see the tests: some 1e-5).
+  /// As integrateLobeOverPolygon; vertices finite. `error` sums the differences between pieces of edges and
+  /// their halves; the table's own error is not in it (hemisphere() tells of it; see the tests: some 1e-5).
   PolygonIntegral integrate(std::span<const Eigen::Vector3d> vertices) const;
 
   /// The integral over the upper hemisphere, as the table has it: compared with the albedo it shows the
@@ -47,12 +48,13 @@ class ContourIntegrator {
   double potential(double x, double y) const;
   double piece(const Node& a, const Node& b, const Node& middle, double whole, int depth,
                PolygonIntegral& out) const;
-  // Both add what lies between a node and the point given, and return the node there.
-  Node addPiece(const Node& a, const Eigen::Vector3d& end, PolygonIntegral& out) const;
+  // Both add what lies between a node and another, or a unit vector, and return the node there.
+  Node addPiece(const Node& a, const Node& b, PolygonIntegral& out) const;
   Node addEdge(const Node& start, const Eigen::Vector3d& b, PolygonIntegral& out) const;
 
-  const Lobe& lobe_;  // must outlive this
   ContourIntegratorOptions options_;
+  StretchedMap map_;
+  double nothing_;             // squared length of centre + linear wi below which it is rounding
   Eigen::Vector2d axis_;       // azimuth 0
   std::vector<double> reach_;  // for each ray: radius of the horizon. Each quadrant has both its borders
   std::vector<double> k_;      // ray-major, radii + 1 each

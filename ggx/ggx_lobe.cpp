@@ -123,12 +123,9 @@ StretchedNode GgxLobe::atStretched(const Vector3d& s) const {
   return {wi, 2.0 * std::numbers::inv_pi * length * cosine * wi.z() / masked};
 }
 
-Vector3d GgxLobe::toStretched(const Vector3d& wi) const {
-  const double length = wi.norm();
-  const Vector3d h = length * wo() + wi;
-  const Vector3d s(h.x() / alpha_.x, h.y() / alpha_.y, h.z());
-  // nearer than this to -wo, where it is undefined, h is rounding
-  return h.squaredNorm() > 1e-22 * length * length ? s : Vector3d(Vector3d::UnitZ());
+StretchedMap GgxLobe::toStretched() const {
+  const Vector3d stretch(1.0 / alpha_.x, 1.0 / alpha_.y, 1.0);
+  return {stretch.cwiseProduct(wo()), stretch.asDiagonal()};
 }
 
 Eigen::Vector2d GgxLobe::stretchedAzimuth() const {

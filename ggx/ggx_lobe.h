@@ -40,7 +40,8 @@ class GgxLobe final : public Lobe {
   /// dwm.
   StretchedNode atStretched(const Eigen::Vector3d& s) const override;
 
-  Eigen::Vector3d toStretched(const Eigen::Vector3d& wi) const override;
+  /// The half vector, stretched.
+  StretchedMap toStretched() const override;
 
   Eigen::Vector2d stretchedAzimuth() const override;
 

@@ -19,6 +19,13 @@ struct StretchedNode {
   double measure;  ///< eval(wi) dwi / ds, >= 0
 };
 
+/// The direction s of Lobe::atStretched for unit wi above the horizon: along centre + linear wi. The null
+/// vector, where s is undefined, only at wi = -wo and grazing view.
+struct StretchedMap {
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d linear;
+};
+
 /// The cosine-weighted BRDF rho(wo, wi) cos theta_i of one view direction, without Fresnel (F = 1): the
 /// target of every fit. Its integral over wi is the directional albedo, see moments.h.
 class Lobe {
@@ -50,9 +57,8 @@ class Lobe {
   /// quadrature, whose cells are split until they are small in them. NaN where undefined.
   virtual Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const = 0;
 
-  /// The inverse of atStretched: a vector along the s with s.z >= 0 whose wi this is, for wi of any length >
-  /// 0 at or above the horizon. (0, 0, 1) where it is undefined (the mirror direction at theta = 90 degrees).
-  virtual Eigen::Vector3d toStretched(const Eigen::Vector3d& wi) const = 0;
+  /// The inverse of atStretched.
+  virtual StretchedMap toStretched() const = 0;
 
   /// Azimuth of the view in the stretched configuration, unit: at grazing view the lobe ends across it.
   virtual Eigen::Vector2d stretchedAzimuth() const = 0;

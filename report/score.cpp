@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -52,26 +53,17 @@ struct Target {
   MetricTarget metrics;
 };
 
-// A fit of the very point, of the table's own kind: its error at a node is then no cost of interpolation. L3
-// for isotropic tables that were fitted with it (those that do not say how are taken for such), else sliced
-// Wasserstein.
-Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& target, std::uint64_t seed) {
-  const auto option = [&](std::string_view name) -> std::string {
-    for (const auto& [key, value] : table.info().provenance.options) {
+// How the table's provenance says that it was fitted; the default fitter where it does not say, or says what
+// no option allows (a damaged file). A stochastic descent takes too long here: the same distance without it.
+TableFitOptions fitOptionsOf(const Table& table, std::uint64_t seed) {
+  const auto& known = table.info().provenance.options;
+  const auto text = [&](std::string_view name) -> std::string {
+    for (const auto& [key, value] : known)
       if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
-    }
     return {};
   };
-  const std::string fitter = option("fitter");
-  if (table.isIsotropic() && fitter != "sw" && fitter != "sw-sgd") {
-    EntryFitOptions fit;
-    if (option("family") == "3") fit.family = IsotropicFamily::kMeanFrame3;
-    fit.seed = seed;
-    return fitIsotropicEntry(*target.lobe, target.metrics.moments(), fetched, fit).m;
-  }
-  const std::string preset = option("preset");
   const auto number = [&](std::string_view name, double otherwise) {
-    for (const auto& [key, value] : table.info().provenance.options) {
+    for (const auto& [key, value] : known) {
       if (key != name) continue;
       if (std::holds_alternative<double>(value)) return std::get<double>(value);
       if (std::holds_alternative<std::int64_t>(value))
@@ -79,26 +71,38 @@ Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& ta
     }
     return otherwise;
   };
-  const std::string known = preset == "fast" || preset == "fine" ? preset : "standard";
+  const std::string given = text("preset");
+  const std::string preset = given == "fast" || given == "fine" ? given : "standard";
+  const std::string fitter = text("fitter");
+  TableFitOptions o;
+  o.fitter = fitter == "light" ? Fitter::kLight : fitter == "l3" ? Fitter::kL3 : Fitter::kSlicedWasserstein;
+  o.sw = slicedWassersteinPreset(preset);
+  o.light = lightFitPreset(preset);
+  const TableFitOptions standard = o;
+  o.sw.leakWeight = number("leak_weight", 0.0);
+  o.light.leakWeight = number("leak_weight", o.light.leakWeight);
+  PolygonLightOptions& lights = o.light.lights;
+  lights.sizeExponent = number("size_exponent", lights.sizeExponent);
+  lights.lights = static_cast<int>(std::clamp(number("lights", lights.lights), 0.0, 1e6));
+  for (const LightWeighting w : {LightWeighting::kRelative, LightWeighting::kMixed})
+    if (text("weighting") == lightWeightingName(w)) lights.weighting = w;
   std::string error;
-  if (fitter == "light") {
-    TableFitOptions light;
-    light.fitter = Fitter::kLight;
-    light.light = lightFitPreset(known);
-    const LightFitOptions standard = light.light;
-    light.light.leakWeight = number("leak_weight", standard.leakWeight);
-    light.light.lights.sizeExponent = number("size_exponent", standard.lights.sizeExponent);
-    if (!light.light.isValid(&error)) light.light = standard;  // of a damaged file
-    light.light.lights.seed = seed;
-    return fitJob({target.parameters, familyOf(target.parameters)}, table.info().brdf, light).m;
+  if (!o.isValid(&error)) {
+    o.sw = standard.sw;
+    o.light = standard.light;
   }
-  SlicedWassersteinFitOptions fit = slicedWassersteinPreset(known);
-  fit.leakWeight = number("leak_weight", 0.0);
-  if (!fit.isValid(&error)) fit.leakWeight = 0.0;  // of a damaged file
-  fit.seed = seed;
-  const SlicedWassersteinTarget lobe = makeTarget(*target.lobe, familyOf(target.parameters), fit);
-  ProjectedCdfLoss loss = makeLoss(lobe, fit.levels.back(), fit.seed);
-  return fitSlicedWasserstein(lobe, lobe.start, fit, loss).m;
+  o.sw.seed = o.light.lights.seed = o.l3.seed = seed;
+  if (text("family") == "3") o.l3.family = IsotropicFamily::kMeanFrame3;
+  return o;
+}
+
+// A fit of the very point, of the table's own kind: its error at a node is then no cost of interpolation.
+// Isotropic tables that do not say how they were fitted are taken for L3 ones: the published one is.
+Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& target,
+                   const TableFitOptions& options) {
+  if (table.isIsotropic() && (options.fitter == Fitter::kL3 || table.info().provenance.options.empty()))
+    return fitIsotropicEntry(*target.lobe, target.metrics.moments(), fetched, options.l3).m;
+  return fitJob({target.parameters, familyOf(target.parameters)}, table.info().brdf, options).m;
 }
 
 PointResult judge(const TableEntry& entry, const Table& table, const Target& target,
@@ -116,7 +120,8 @@ PointResult judge(const TableEntry& entry, const Table& table, const Target& tar
   out.metrics = target.metrics.evaluate(ltc);
   addEntryErrors(entry, table.info().stores, target.metrics.moments(), out.metrics);
   if (options.interpolation) {
-    const Matrix3d direct = directFit(entry.m, table, target, mixSeed(options.metrics.seed, 21));
+    const Matrix3d direct =
+        directFit(entry.m, table, target, fitOptionsOf(table, mixSeed(options.metrics.seed, 21)));
     out.metrics.set(Metric::kInterpolationRatio,
                     out.metrics.get(Metric::kSw1) / target.metrics.sw1(Ltc(direct)));
   }

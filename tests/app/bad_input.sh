@@ -46,6 +46,11 @@ expect ".: is a folder" score .
 expect "missing.json" score good.json --against missing.json
 expect "--count 0" score good.json --points off-grid --count 0
 expect "--points" score good.json --points everywhere
+expect "would overwrite this table" score good.json --count 3 --report good.json
+cp good.json second.json
+expect "would overwrite this table" score good.json --count 3 --against second.json --report ./second.json
+rm second.json
+expect "would overwrite this table" export good.json -o good.json
 expect "--min-alpha" score good.json --min-alpha -0.5
 expect "no point is left" score good.json --points extreme --min-alpha 0.9
 for f in truncated count nan null axis version missing; do expect "$f.json" export $f.json -o x.h; done

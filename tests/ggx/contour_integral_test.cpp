@@ -151,6 +151,86 @@ TEST(ContourIntegrator, AgreesWithAdaptiveCubature) {
   }
 }
 
+TEST(ContourIntegrator, SeesEdgesThatLeaveTheirPlaceAndComeBack) {
+  // found by a search with edges along and through the plane of incidence: one whose image is a loop within a
+  // ten-thousandth of its length
+  const GgxLobe lobe(viewDirection(0.5 * kPi, 0.0), {1.170e-5, 6.084e-2});
+  const Quad quad{Vector3d{-0.99992609806243571, 0.94021661294149694, 0.00025193847232067942},
+                  Vector3d{-1.0000090625316849, -0.11570731667698898, 0.00025193847232067942},
+                  Vector3d{-0.99985310099987068, -0.11570732893096423, 0.61929803297844044},
+                  Vector3d{-0.99977013653062141, 0.94021660068752178, 0.61929803297844044}};
+  EXPECT_NEAR(ContourIntegrator(lobe).integrate(quad).value, hitRates(lobe, {quad}, 1 << 20)[0], 1e-4);
+  // and a small search of that kind
+  Random random(26);
+  int checked = 0;
+  for (int i = 0; i < 150; ++i) {
+    const GgxAlpha alpha{std::pow(10.0, -4.0 * random.uniform()), std::pow(10.0, -4.0 * random.uniform())};
+    const double theta = i % 8 == 0 ? 0.5 * kPi : 0.5 * kPi - std::pow(10.0, -1.0 - 4.0 * random.uniform());
+    const GgxLobe l(viewDirection(theta, i % 2 == 0 ? 0.0 : 0.5 * kPi), alpha);
+    const ContourIntegrator integrator(l);
+    const Vector3d mirror(-l.wo().x(), -l.wo().y(), l.wo().z());
+    std::vector<Quad> quads;
+    for (int k = 0; k < 12; ++k) {
+      const double size = 0.02 * std::pow(75.0, random.uniform());
+      // the mirror direction on an edge, or off it by some part of a millionth to a tenth
+      const Quad q = rectangle(mirror, size, size, k % 3 == 0 ? 6.3 * random.uniform() : 0.5 * kPi * (k % 2));
+      const double aside = 1.0 + (k % 2 == 0 ? 0.0 : std::pow(10.0, -6.0 * random.uniform()));
+      const Vector3d x = 0.5 * (q[1] - q[0]) * (2.0 * random.uniform() - 1.0);
+      const Vector3d move = x + aside * 0.5 * (q[3] - q[0]);
+      quads.push_back({q[0] + move, q[1] + move, q[2] + move, q[3] + move});
+    }
+    const std::vector<double> expected = hitRates(l, quads, 1 << 15);
+    for (std::size_t k = 0; k < quads.size(); ++k) {
+      const double value = integrator.integrate(quads[k]).value;
+      ++checked;
+      if (std::abs(value - expected[k]) < 8e-4) continue;  // more samples only where it matters
+      EXPECT_NEAR(value, hitRates(l, {quads[k]}, 1 << 21)[0], 5e-4)
+          << alpha.x << " " << alpha.y << " " << theta;
+    }
+  }
+  EXPECT_EQ(checked, 1800);
+}
+
+TEST(ContourIntegrator, WallsThroughTheNadirAndVerticesOfAnyLength) {
+  const GgxLobe lobe(viewDirection(0.8, 0.0), {0.5, 0.5});
+  const ContourIntegrator integrator(lobe);
+  const double hemisphere = integrator.hemisphere();
+  const std::vector<std::vector<Vector3d>> polygons{
+      {{0.2, -8, -6}, {-3, -8, 10}, {-3, 8, 10}, {0.2, 8, -6}},
+      {{-1, -1, 1}, {0.1, 0, -1}, {-1, 1, 1}},
+      {{-1, -1, 1}, {0, 0, -1}, {-1, 1, 1}},
+      {{-1e-8, -2e-8, 1e-8}, {-1e8, -0.5e8, 0.7e8}, {-1, 1.3, 2}}};
+  for (const auto& polygon : polygons) {
+    // the cubature wants one plane, and planar triangles are
+    double expected = 0.0;
+    for (std::size_t k = 2; k < polygon.size(); ++k) {
+      const std::array<Vector3d, 3> triangle{polygon[0].normalized(), polygon[k - 1].normalized(),
+                                             polygon[k].normalized()};
+      expected += integrateLobeOverPolygon(lobe, triangle).value;
+    }
+    EXPECT_NEAR(integrator.integrate(polygon).value, expected, 1e-4) << polygon[0].transpose();
+    EXPECT_LE(std::abs(integrator.integrate(polygon).value), hemisphere + 1e-4);
+  }
+}
+
+TEST(ContourIntegrator, NearGrazingRoughLobesKeepTheirAlbedo) {
+  // the horizon then turns from the rim to the middle within wo.z radians
+  for (const double alpha : {0.5, 0.8, 0.97}) {
+    for (const double z : {1e-5, 1e-4, 1e-3, 1e-2}) {
+      const GgxLobe lobe(viewDirection(std::acos(z), 0.0), {alpha, alpha});
+      EXPECT_NEAR(ContourIntegrator(lobe).hemisphere(), computeMoments(lobe).albedo, 1e-4)
+          << alpha << " " << z;
+    }
+  }
+}
+
+TEST(ContourIntegratorDeath, OptionsOutOfRange) {
+  const GgxLobe lobe(viewDirection(0.8, 0.0), {0.5, 0.5});
+  EXPECT_DEATH(ContourIntegrator(lobe, {8, 32, 1e-5}), "azimuths = 8");
+  EXPECT_DEATH(ContourIntegrator(lobe, {64, 2, 1e-5}), "radii = 2");
+  EXPECT_DEATH(ContourIntegrator(lobe, {64, 32, std::nan("")}), "tolerance");
+}
+
 TEST(ContourIntegrator, HemisphereIsTheAlbedoAndTellsACoarseTable) {
   Random random(25);
   double fine = 0.0;

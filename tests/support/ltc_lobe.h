@@ -25,7 +25,7 @@ class LtcLobe final : public Lobe {
     const Eigen::Vector3d s = (ltc_.mInv() * wi).normalized();
     return {s.x(), s.y(), s.z(), 0.0};
   }
-  Eigen::Vector3d toStretched(const Eigen::Vector3d& wi) const override { return ltc_.mInv() * wi; }
+  StretchedMap toStretched() const override { return {Eigen::Vector3d::Zero(), ltc_.mInv()}; }
   Eigen::Vector2d stretchedAzimuth() const override { return Eigen::Vector2d::UnitX(); }
   double stretchedHorizon(const Eigen::Vector2d&) const override { return 1.0; }
 
