@@ -16,7 +16,7 @@ namespace {
 // percent of SW1; for the anisotropic table SW1 comes first.
 constexpr double kIsotropicLeakWeight = 0.2;
 constexpr double kIsotropicLightLeakWeight = 0.02;
-constexpr double kAnisotropicLightLeakWeight = 0.045;
+constexpr double kAnisotropicLightLeakWeight = 0.05;
 // DESIGN.md, Lights: the largest that do not lose on large lights against sw.
 constexpr double kIsotropicSizeExponent = 0.25;
 constexpr double kAnisotropicSizeExponent = 0.4;
