@@ -23,4 +23,4 @@ for kind in iso aniso; do
   build/ltcfit export out/ltc_$kind.json --format h -o out/ltc_$kind.h
 done
 score ltc_iso ltc2017-1.npy 512 --stored-as Minv
-score ltc_aniso kt2022-alpha-lambda-theta-phi.npy 48 --quads 32 --lights 8
+score ltc_aniso kt2022-alpha-lambda-theta-phi.npy 512
