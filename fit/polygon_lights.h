@@ -52,7 +52,8 @@ struct PolygonLights {
 /// one part; in the others a direction of the LTC `near` lies on a random point of the light, or of its rim,
 /// within two widths of the LTC: so lobes of any width are met, and most where a difference can show. Weights
 /// make up for the difference in density, so that the weighted mean of squares is that over lights uniform on
-/// the hemisphere, to some 10 % for large lights. Lights below the horizon, where the lobe is 0, come at the end.
+/// the hemisphere, to some 10 % for large lights. Lights below the horizon, where the lobe is 0, come at the
+/// end.
 ///
 /// The same numbers for every lobe, so that neighbours in a table see the same noise. `truth` and `albedo`
 /// are the lobe's; `near` should be close to it, det != 0.

@@ -27,6 +27,10 @@ constexpr int kMaxDepth = 40;
 // An edge that turns back after less than this, in the projection, is not cut there.
 constexpr double kSmallestExcursion = 0.02;
 constexpr double kTouching = 1.0 + 1e-6;
+// Rays at a quadrant's borders stand just inside of it, since at grazing view the lobe ends there; what is
+// below the horizon altogether reaches so far.
+constexpr double kInside = 1e-9;
+constexpr double kLeastReach = 1e-9;
 // centre + linear wi counts as null below this share of the centre: within 1e-11 of -wo at grazing view.
 constexpr double kNull = 1e-11;
 
@@ -97,27 +101,28 @@ ContourIntegrator::ContourIntegrator(const Lobe& lobe, const ContourIntegratorOp
     std::abort();
   }
   const int rays = options.azimuths / 4;
-  const int radii = options.radii;
+  const double h = 1.0 / options.radii;
   for (int q = 0; q < 4; ++q) {
     for (int j = 0; j <= rays; ++j) {
-      // just inside of the quadrant: at grazing view the lobe ends at a border
-      const double t = std::clamp(placeOfRay(q, static_cast<double>(j) / rays), 1e-9, 1.0 - 1e-9);
+      const double t = std::clamp(placeOfRay(q, static_cast<double>(j) / rays), kInside, 1.0 - kInside);
       const Vector2d d = diamondDirection(q + t);
       const Vector2d e(axis_.x() * d.x() - axis_.y() * d.y(), axis_.y() * d.x() + axis_.x() * d.y());
-      const double reach = std::max(1e-9, lobe.stretchedHorizon(e));
-      reach_.push_back(reach);
-      double sum = 0.0;
+      // ds = 4 / (1 + r^2)^2 dc
       const auto density = [&](double r) {
         const double inv = 1.0 / (1.0 + r * r);
         const Vector3d s(2.0 * r * inv * e.x(), 2.0 * r * inv * e.y(), (1.0 - r * r) * inv);
         return lobe.atStretched(s).measure * 4.0 * inv * inv;
       };
+      // Cells are even in v, r = reach (1 - (1 - v)^2), dense towards the horizon where masking is a thin
+      // layer; each by Gauss' rule of two points.
+      const double reach = std::max(kLeastReach, lobe.stretchedHorizon(e));
       const auto radius = [&](double v) { return reach * (1.0 - (1.0 - v) * (1.0 - v)); };
-      k_.push_back(0.5 * density(1e-12));
-      for (int i = 0; i < radii; ++i) {
-        const double v0 = static_cast<double>(i) / radii;
-        const double h = 1.0 / radii;
-        for (double g : {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)}) {
+      reach_.push_back(reach);
+      k_.push_back(0.5 * density(0.0));
+      double sum = 0.0;
+      for (int i = 0; i < options.radii; ++i) {
+        const double v0 = i * h;
+        for (const double g : {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)}) {
           const double v = v0 + g * h;
           const double r = radius(v);
           sum += 0.5 * h * density(r) * r * 2.0 * reach * (1.0 - v);
@@ -141,7 +146,7 @@ double ContourIntegrator::potential(double x, double y) const {
   const std::size_t base = static_cast<std::size_t>(quadrant * (rays + 1) + j - 1);
   double reach = 0.0;
   for (std::size_t a = 0; a < 4; ++a) reach += across[a] * reach_[base + a];
-  reach = std::max(reach, 1e-9);
+  reach = std::max(reach, kLeastReach);
   const double r = std::sqrt(x * x + y * y) / reach;
   const double v = (r >= 1.0 ? 1.0 : 1.0 - std::sqrt(1.0 - r)) * radii;
   const int i = std::clamp(static_cast<int>(v), 1, radii - 2);
