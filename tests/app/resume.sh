@@ -2,39 +2,42 @@
 . "$(dirname "$0")/common.sh" "$@"
 
 fit() { "$ltcfit" fit aniso -q -o "$1" --size 5x5x4x4 --report "$1.csv" "${@:2}"; }
-start=$(date +%s%N)
 fit whole.json || fail "the fit itself"
-ms=$((($(date +%s%N) - start) / 1000000))
+lobes=$(($(wc -l < whole.json.csv) - 1))
 [ ! -e whole.json.part ] || fail "a finished run left its checkpoint"
-echo "one run takes $ms ms"
-kills=0
+
+# run_until LINES OPTIONS...: starts a fit of t.json, kills it when its checkpoint has so many lines
+killed=0
+run_until() {
+  local lines=$1
+  shift
+  (exec "$ltcfit" fit aniso -q -o t.json --size 5x5x4x4 --report t.json.csv "$@") & local pid=$!
+  while kill -0 $pid 2>/dev/null && [ "$(wc -l 2>/dev/null < t.json.part || echo 0)" -lt "$lines" ]; do sleep 0.005; done
+  kill -9 $pid 2>/dev/null && killed=$((killed + 1))
+  wait $pid 2>/dev/null
+}
 resumed=0
-for delay in $(python3 -c "import random; random.seed(2); [print(random.random() * 0.95 * $ms / 1000) for _ in range(12)]"); do
+for lines in $(python3 -c "import random; random.seed(2); [print(random.randint(1, int(0.9 * $lobes))) for _ in range(12)]"); do
   rm -f t.json*
-  (exec "$ltcfit" fit aniso -q -o t.json --size 5x5x4x4 --report t.json.csv) & pid=$!
-  sleep "$delay"
-  kill -9 $pid 2>/dev/null && kills=$((kills + 1))
-  wait $pid 2>/dev/null
+  run_until "$lines"
   [ -e t.json ] && continue
-  # a second kill, sooner, then a last line that was cut off, then to the end
-  (exec "$ltcfit" fit aniso -q -o t.json --size 5x5x4x4 --report t.json.csv --resume) & pid=$!
-  sleep "$(python3 -c "print($delay / 3)")"
-  kill -9 $pid 2>/dev/null
-  wait $pid 2>/dev/null
+  # a second kill, later, then a last line that was cut off, then to the end
+  run_until $((lines + lobes / 20)) --resume
   if [ -e t.json.part ]; then
     size=$(stat -c %s t.json.part)
     [ "$size" -gt 2000 ] && resumed=$((resumed + 1)) && truncate -s $((size - 7)) t.json.part
   fi
   fit t.json --resume || fail "--resume"
-  cmp -s t.json whole.json || fail "another table after a kill at $delay s"
-  cmp -s t.json.csv whole.json.csv || fail "another report after a kill at $delay s"
+  cmp -s t.json whole.json || fail "another table after a kill at $lines of $lobes lobes"
+  cmp -s t.json.csv whole.json.csv || fail "another report after a kill at $lines of $lobes lobes"
   [ ! -e t.json.part ] || fail "the checkpoint was left"
 done
-[ $kills -ge 10 ] || fail "only $kills runs were alive to be killed"
-[ $resumed -ge 5 ] || fail "only $resumed runs had something to resume"
+[ $killed -ge 16 ] || fail "only $killed runs were alive to be killed"
+[ $resumed -ge 8 ] || fail "only $resumed runs had something to resume"
 # without --resume an interrupted run's work is not thrown away
-timeout -s KILL "$(python3 -c "print(0.6 * $ms / 1000)")" "$ltcfit" fit aniso -q -o t2.json --size 5x5x4x4 2>/dev/null
-[ -s t2.json.part ] || fail "no checkpoint after a kill"
+rm -f t.json*
+run_until $((lobes / 2))
+mv t.json.part t2.json.part || fail "no checkpoint after a kill"
 fit t2.json 2>message.txt; [ $? -eq 2 ] && grep -q -- --resume message.txt || fail "an interrupted run was overwritten"
 "$ltcfit" fit aniso -q -o t2.json --size 5x5x4x4 --seed 2 --resume 2>message.txt
 [ $? -eq 2 ] && grep -q "holds another run" message.txt || fail "another run's checkpoint was taken"
