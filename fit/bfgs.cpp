@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "fit/ceres_termination.h"
+
 namespace ltcfit {
 namespace {
 
@@ -27,11 +29,6 @@ class Adapter final : public ceres::FirstOrderFunction {
   std::size_t size_;
   int& evaluations_;
 };
-
-Termination termination(ceres::TerminationType type) {
-  if (type == ceres::CONVERGENCE) return Termination::kConverged;
-  return type == ceres::NO_CONVERGENCE ? Termination::kMaxEvaluations : Termination::kFailure;
-}
 
 }  // namespace
 
@@ -69,7 +66,7 @@ OptimizerResult minimizeBfgs(const GradientCostFunction& cost, std::span<const d
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceresOptions, problem, result.parameters.data(), &summary);
   result.cost = summary.final_cost;
-  result.termination = termination(summary.termination_type);
+  result.termination = internal::terminationOf(summary.termination_type);
   if (!(result.cost <= result.startCost)) {
     result.parameters.assign(start.begin(), start.end());
     result.cost = result.startCost;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fit/ceres_termination.h"
 #include "ltc/ltc.h"
 #include "ltc/polygon.h"
 
@@ -42,11 +43,6 @@ class Residuals final : public ceres::CostFunction {
   Matrix3d base_;
   int& evaluations_;
 };
-
-Termination terminationOf(ceres::TerminationType type) {
-  if (type == ceres::CONVERGENCE) return Termination::kConverged;
-  return type == ceres::NO_CONVERGENCE ? Termination::kMaxEvaluations : Termination::kFailure;
-}
 
 Matrix3d scaled(const Matrix3d& m) {
   Matrix3d out = m / m.col(2).norm();
@@ -182,7 +178,7 @@ LightFit solveLightProblem(const LightProblem& problem, const Matrix3d& start,
   ceres::Solve(o, &ceresProblem, &summary);
   fit.startCost = summary.initial_cost;
   fit.cost = summary.final_cost;
-  fit.termination = terminationOf(summary.termination_type);
+  fit.termination = internal::terminationOf(summary.termination_type);
   const Matrix3d m = changedBy(fit.m, problem.family, p);
   if (m.allFinite() && fit.cost <= fit.startCost) {
     fit.m = scaled(m);

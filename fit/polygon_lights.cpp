@@ -118,9 +118,7 @@ double solidAngle(const Vector2d& half) {
 // Centre of a light whose point `place`, in half-sizes, lies in direction w; mirrored up to the upper
 // hemisphere.
 Vector3d aim(const Vector3d& w, const Vector2d& place, const Vector2d& half, double angle) {
-  const Vector3d helper = std::abs(w.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
-  const Vector3d t1 = helper.cross(w).normalized();
-  const Vector3d t2 = w.cross(t1);
+  const auto [t1, t2] = tangents(w);
   const Vector2d p = Eigen::Rotation2Dd(angle) * place.cwiseProduct(half);
   const Vector3d centre = (w + p.x() * t1 + p.y() * t2).normalized();
   return {centre.x(), centre.y(), std::abs(centre.z())};
