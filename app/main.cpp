@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   CommandStatus status;
   addFitCommand(app, status);
   addScoreCommand(app, status);
+  addCompareCommand(app, status);
   addExportCommand(app, status);
   try {
     app.parse(argc, argv);

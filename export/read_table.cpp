@@ -1,13 +1,30 @@
 #include "export/read_table.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 
 #include "export/atomic_file.h"
+#include "export/dds.h"
+#include "export/exr.h"
 #include "export/json_table.h"
+#include "export/ktx2.h"
+#include "export/little_endian.h"
+#include "export/npy.h"
 #include "export/published_table.h"
+#include "export/source_table.h"
+#include "export/texture_files.h"
+#include "export/texture_metadata.h"
 
 namespace ltcfit {
 namespace {
+
+// Sidecars hold a header and a few axes.
+constexpr std::uint64_t kMaxSidecar = std::uint64_t{1} << 26;
 
 // Where the second texture of the 2017 table lies: "ltc2017-1.npy" has "ltc2017-2.npy" beside it.
 std::string secondTexturePath(const std::string& path) {
@@ -20,26 +37,134 @@ std::string secondTexturePath(const std::string& path) {
   return std::filesystem::exists(p) ? p.string() : std::string();
 }
 
+// The metadata beside a file, if there is any.
+std::optional<PackedTable> readSidecar(const std::string& path) {
+  const std::string beside = sidecarPath(path);
+  if (!std::filesystem::exists(beside)) return std::nullopt;
+  const std::string text = readFile(beside, kMaxSidecar);
+  if (!isTextureMetadata(text)) return std::nullopt;
+  return packedFromMetadata(text, beside);
+}
+
+std::vector<Image> layersOf(const Image& image) {
+  std::vector<Image> layers;
+  const std::size_t count = image.width * image.height * image.depth * image.components;
+  for (std::size_t l = 0; l < image.layers; ++l) {
+    Image layer = image;
+    layer.layers = 1;
+    const auto begin = image.values.begin() + static_cast<std::ptrdiff_t>(l * count);
+    layer.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    layers.push_back(std::move(layer));
+  }
+  return layers;
+}
+
+Image imageOfArray(const FloatArray& array, const std::string& name) {
+  if (array.shape.size() != 3) {
+    throw InputError(
+        fmt::format("{}: shape ({}) is neither (y, x, 4), the 2017 table, nor (alpha, lambda, theta, "
+                    "phi, 3, 3), the 2022 one; for other arrays {} is needed",
+                    name, fmt::join(array.shape, ", "), sidecarPath(name)));
+  }
+  Image image;
+  image.height = array.shape[0];
+  image.width = array.shape[1];
+  image.components = array.shape[2];
+  image.values = array.values;
+  return image;
+}
+
+// One texture file, without a look at its metadata.
+Image readImage(const std::string& bytes, const std::string& path) {
+  if (isNpy(bytes)) return imageOfArray(parseNpy(bytes, path), path);
+  if (isKtx2(bytes)) return parseKtx2(bytes, path).image;
+  if (isDds(bytes)) return parseDds(bytes, path);
+  throw InputError(path + ": neither .npy, DDS nor KTX2");
+}
+
+// The layout of 2017, whose second texture is the second layer or another file.
+Table tableWithoutMetadata(const Image& image, const std::string& path) {
+  if (image.layers == 2) {
+    const std::vector<Image> layers = layersOf(image);
+    return tableFrom2017(layers[0], &layers[1], path);
+  }
+  const std::string second = secondTexturePath(path);
+  if (second.empty()) return tableFrom2017(image, nullptr, path);
+  const Image secondImage = readImage(readFile(second), second);
+  return tableFrom2017(image, &secondImage, path);
+}
+
+Table readTexture(const std::string& bytes, const std::string& path) {
+  std::optional<PackedTable> packed;
+  if (isKtx2(bytes)) {
+    const Ktx2File file = parseKtx2(bytes, path);
+    for (const auto& [key, value] : file.keyValues) {
+      if (key == kMetadataKey) return tableFromStack(packedFromMetadata(value, path), file.image, path);
+    }
+    return tableWithoutMetadata(file.image, path);
+  }
+  packed = readSidecar(path);
+  if (isNpy(bytes)) {
+    const FloatArray array = parseNpy(bytes, path);
+    if (packed) return tableFromNumbers(std::move(*packed), array.values, path);
+    if (array.shape.size() == 6) return tableFrom2022(array, path);
+    return tableWithoutMetadata(imageOfArray(array, path), path);
+  }
+  const Image image = parseDds(bytes, path);
+  if (!packed) return tableWithoutMetadata(image, path);
+  if (packed->files.empty()) return tableFromStack(std::move(*packed), image, path);
+  std::vector<Image> images;
+  for (const std::string& name : packed->files) {
+    const std::string file = (std::filesystem::path(path).parent_path() / name).string();
+    images.push_back(parseDds(readFile(file), file));
+  }
+  return tableFromImages(std::move(*packed), std::move(images), path);
+}
+
+// What a binary without a header of its own holds, texture after texture.
+std::vector<float> numbersOfBinary(std::string_view bytes, const PackedTable& packed,
+                                   const std::string& path) {
+  if (packed.container == kPlayCanvasContainer && bytes.size() >= 4) bytes.remove_prefix(4);
+  const std::size_t size = packed.precision == Precision::kHalf ? 2 : 4;
+  if (bytes.size() % size != 0)
+    throw InputError(fmt::format("{}: {} bytes are no whole count of numbers", path, bytes.size()));
+  const std::vector<float> numbers = readValues(bytes, packed.precision);
+  if (packed.container != kBabylonContainer) return numbers;
+  std::vector<float> first;
+  std::vector<float> second;
+  for (std::size_t i = 0; i < numbers.size(); ++i) (i % 8 < 4 ? first : second).push_back(numbers[i]);
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+bool looksLikeText(std::string_view bytes) {
+  return bytes.find('\0') == std::string_view::npos;
+}
+
 }  // namespace
 
 Table readTable(const std::string& path) {
   const std::string bytes = readFile(path);
-  if (isNpy(bytes) || isDds(bytes)) {
-    const FloatArray array = isNpy(bytes) ? parseNpy(bytes, path) : parseDds(bytes, path);
-    if (array.shape.size() == 6) return tableFrom2022(array, path);
-    const std::string second = secondTexturePath(path);
-    if (second.empty()) return tableFrom2017(array, nullptr, path);
-    const std::string secondBytes = readFile(second);
-    if (!isNpy(secondBytes) && !isDds(secondBytes)) throw InputError(second + ": neither .npy nor DDS");
-    const FloatArray secondArray =
-        isNpy(secondBytes) ? parseNpy(secondBytes, second) : parseDds(secondBytes, second);
-    return tableFrom2017(array, &secondArray, path);
-  }
+  if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path);
+  if (isExr(bytes)) return tableFromExr(bytes, path);
   // a byte order mark, as editors of one vendor leave it, is not part of the text
   const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   if (start == std::string::npos) throw InputError(path + ": is empty");
-  if (bytes[start] == '{') return tableFromJson(bytes, path);
-  throw InputError(path + ": not a table: neither ltcfit's JSON, .npy nor DDS");
+  if (bytes[start] == '{') {
+    if (isTextureMetadata(bytes))
+      throw InputError(path + ": describes a texture file; give that one (the name without .json)");
+    return tableFromJson(bytes, path);
+  }
+  if (std::optional<PackedTable> packed = readSidecar(path)) {
+    std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
+    return tableFromNumbers(std::move(*packed), numbers, path);
+  }
+  std::optional<Table> table =
+      looksLikeText(bytes) ? tableFromSource(bytes, path) : tableFromEngineBinary(bytes, path);
+  if (table) return std::move(*table);
+  throw InputError(path +
+                   ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "
+                   "module with LTC_MAT_1, nor PlayCanvas' or Babylon.js' binary");
 }
 
 }  // namespace ltcfit

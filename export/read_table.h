@@ -9,9 +9,13 @@ namespace ltcfit {
 
 /// Reads a table by its content, whatever its name says:
 ///   our JSON;
-///   the published 2017 table as .npy or DDS (legacy header, half): `path` is its first texture (Minv), the
-///   second one (norm, Fresnel) is looked for next to it, with the last '1' of the file name made a '2';
-///   the published 2022 table as .npy.
+///   what `ltcfit export` writes as KTX2, EXR, DDS, .npy or raw numbers, with the metadata in the file or in
+///   FILE.json beside it;
+///   the layout of 2017 without metadata, as engines ship it: .npy, DDS or KTX2 (one file of two layers, or
+///   the first of two files: the second one is looked for next to it, with the last '1' of the name made a
+///   '2'), a JavaScript module with LTC_MAT_1 and LTC_MAT_2 (three.js), PlayCanvas' and Babylon.js' binaries;
+///   C headers: ltcfit's isotropic one and its like (arrays of 4 and 2 numbers a texel), and the anisotropic
+///   one of 2022 (five dimensions, 9 numbers last); the published 2022 table as .npy.
 /// Throws InputError: not there, not readable, not one of these, or damaged.
 Table readTable(const std::string& path);
 

@@ -39,4 +39,9 @@ double sphereFormFactorClipped(double cosOmega, double sinSigma) {
   return std::clamp(area * std::numbers::inv_pi, 0.0, sinSigma * sinSigma);
 }
 
+double sphereTableValue(double cosOmega, double length) {
+  if (length <= 0.0) return std::max(0.0, cosOmega);
+  return sphereFormFactorClipped(cosOmega, std::sqrt(length)) / length;
+}
+
 }  // namespace ltcfit

@@ -12,4 +12,9 @@ double sphereFormFactor(double cosOmega, double sinSigma);
 /// Real-Time Graphics"; equal to his case list, in one expression derived in the .cpp).
 double sphereFormFactorClipped(double cosOmega, double sinSigma);
 
+/// What engines store of it in a texture, in [0, 1]: the clipped form factor of a sphere over the length of
+/// its vector form factor, sin^2(sigma), by which the texture is addressed: x = (cosOmega + 1) / 2, y =
+/// length (Hill and Heitz 2016). `length` in [0, 1]; at 0 the limit, max(0, cosOmega).
+double sphereTableValue(double cosOmega, double length);
+
 }  // namespace ltcfit

@@ -1,0 +1,56 @@
+#include "app/half_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "fit/target_lobe.h"
+#include "report/metrics.h"
+
+namespace ltcfit::app {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+// SW1 of the lobe's LTC in float32 and in halves.
+void printNode(const Table& table, const HalfNode& node) {
+  const LobeParameters p = table.parameters(table.node(node.node));
+  MetricOptions options;
+  options.quads = 1;
+  options.lights = 1;
+  const std::unique_ptr<Lobe> lobe = makeTargetLobe(table.info().brdf, p);
+  const MetricTarget target(*lobe, options);
+  fmt::print("  {:>10.6g} {:>10.6g} {:>9.4f} {:>9.4f} {:>12.2e} {:>10.4f} {:>11.3e} {:>11.3e}{}\n", p.alphaX,
+             p.alphaY, p.theta * kDegrees, p.phi * kDegrees, node.shift, 100.0 * node.detError,
+             target.sw1(Ltc(table.entry(table.node(node.node)).m)), target.sw1(Ltc(node.m)),
+             node.constrained ? "  bounded" : "");
+}
+
+}  // namespace
+
+void printHalfSummary(const Table& table, const HalfReport& report, int worst) {
+  if (report.nodes.empty()) return;
+  double shift = 0.0;
+  double detError = 0.0;
+  for (const HalfNode& node : report.nodes) {
+    shift = std::max(shift, node.shift);
+    detError = std::max(detError, node.detError);
+  }
+  fmt::print(
+      "half: at {} of {} nodes not the nearest halves, at {} bounded (normal diagonal, determinant); "
+      "largest lobe shift {:.2e} rad, determinant error {:.2f} %\n",
+      report.moved, report.nodes.size(), report.constrained, shift, 100.0 * detError);
+  if (worst <= 0) return;
+  // nodes of a resampled table have no parameters in the one given
+  if (report.nodes.size() != table.nodeCount()) return;
+  std::vector<HalfNode> nodes = report.nodes;
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [](const HalfNode& a, const HalfNode& b) { return a.shift > b.shift; });
+  nodes.resize(std::min(nodes.size(), static_cast<std::size_t>(worst)));
+  fmt::print("  {:>10} {:>10} {:>9} {:>9} {:>12} {:>10} {:>11} {:>11}\n", "alpha_x", "alpha_y", "theta deg",
+             "phi deg", "shift rad", "det err %", "SW1 float", "SW1 half");
+  for (const HalfNode& node : nodes) printNode(table, node);
+}
+
+}  // namespace ltcfit::app

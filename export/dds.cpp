@@ -1,0 +1,128 @@
+#include "export/dds.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+
+#include "export/atomic_file.h"
+#include "export/little_endian.h"
+
+// Layout: "DDS Programming Guide" (Microsoft): magic, DDS_HEADER of 124 bytes, DDS_HEADER_DXT10 of 20 where
+// the FourCC is "DX10", then the texels.
+namespace ltcfit {
+namespace {
+
+constexpr std::string_view kMagic = "DDS ";
+constexpr std::size_t kLegacySize = 128;
+constexpr std::size_t kDx10Size = 148;
+constexpr std::uint32_t kDx10 = 0x30315844;  // "DX10"
+// DDSD_: what the header says
+constexpr std::uint32_t kCaps = 0x1, kHeight = 0x2, kWidth = 0x4, kPitch = 0x8, kPixelFormat = 0x1000,
+                        kDepth = 0x800000;
+constexpr std::uint32_t kFourCc = 0x4;                                  // DDPF_
+constexpr std::uint32_t kComplex = 0x8, kTexture = 0x1000;              // DDSCAPS_
+constexpr std::uint32_t kCubeMap = 0x200 | 0xFC00, kVolume = 0x200000;  // DDSCAPS2_
+constexpr std::uint32_t kTexture2d = 3, kTexture3d = 4;                 // D3D10_RESOURCE_DIMENSION_
+constexpr std::size_t kMaxSide = 16384;                                 // of Direct3D 11
+
+struct Format {
+  std::uint32_t fourCc;  // D3DFMT
+  std::uint32_t dxgi;
+  std::size_t components;
+  Precision precision;
+};
+constexpr std::array<Format, 4> kFormats{{{113, 10, 4, Precision::kHalf},
+                                          {116, 2, 4, Precision::kFloat},
+                                          {112, 34, 2, Precision::kHalf},
+                                          {115, 16, 2, Precision::kFloat}}};
+
+}  // namespace
+
+std::string imageToDds(const Image& image, DdsHeader header) {
+  const Format* format = nullptr;
+  for (const Format& f : kFormats) {
+    if (f.components == image.components && f.precision == image.precision) format = &f;
+  }
+  if (format == nullptr) throw std::invalid_argument("DDS: need 2 or 4 components a texel");
+  if (image.layers > 1 && (image.depth > 1 || header == DdsHeader::kLegacy))
+    throw std::invalid_argument("DDS: this header has no place for an array of textures");
+  const bool volume = image.depth > 1;
+  const auto u32 = [](std::size_t v) { return static_cast<std::uint32_t>(v); };
+
+  std::string out(kMagic);
+  append(out, std::uint32_t{124});
+  append(out, kCaps | kHeight | kWidth | kPitch | kPixelFormat | (volume ? kDepth : 0u));
+  append(out, u32(image.height));
+  append(out, u32(image.width));
+  append(out, u32(image.width * image.components * image.bytesPerValue()));
+  append(out, u32(image.depth));
+  append(out, std::uint32_t{1});  // mip maps: the texture itself
+  out.append(11 * sizeof(std::uint32_t), '\0');
+  append(out, std::uint32_t{32});
+  append(out, kFourCc);
+  append(out, header == DdsHeader::kDx10 ? kDx10 : format->fourCc);
+  out.append(5 * sizeof(std::uint32_t), '\0');  // bit masks of integer formats
+  append(out, kTexture | (volume || image.layers > 1 ? kComplex : 0u));
+  append(out, volume ? kVolume : 0u);
+  out.append(3 * sizeof(std::uint32_t), '\0');
+  if (header == DdsHeader::kDx10) {
+    append(out, format->dxgi);
+    append(out, volume ? kTexture3d : kTexture2d);
+    append(out, std::uint32_t{0});
+    append(out, u32(image.layers));
+    append(out, std::uint32_t{0});
+  }
+  appendValues(out, image.values, image.precision);
+  return out;
+}
+
+bool isDds(std::string_view bytes) {
+  return bytes.starts_with(kMagic);
+}
+
+Image parseDds(std::string_view bytes, const std::string& name) {
+  if (!isDds(bytes) || bytes.size() < kLegacySize || readAt<std::uint32_t>(bytes, 4) != 124)
+    throw InputError(name + ": not a DDS file, or cut off in its header");
+  const std::uint32_t fourCc = readAt<std::uint32_t>(bytes, 84);
+  const std::uint32_t caps2 = readAt<std::uint32_t>(bytes, 112);
+  const bool dx10 = fourCc == kDx10;
+  if (dx10 && bytes.size() < kDx10Size) throw InputError(name + ": DDS file cut off in its DX10 header");
+  const std::uint32_t code = dx10 ? readAt<std::uint32_t>(bytes, kLegacySize) : fourCc;
+  Image image;
+  bool known = false;
+  for (const Format& f : kFormats) {
+    if (code != (dx10 ? f.dxgi : f.fourCc)) continue;
+    image.components = f.components;
+    image.precision = f.precision;
+    known = true;
+  }
+  if (!known) {
+    throw InputError(fmt::format("{}: DDS {} {} is not known (RGBA or RG, half or float)", name,
+                                 dx10 ? "DXGI format" : "FourCC", code));
+  }
+  if (readAt<std::uint32_t>(bytes, 28) > 1) throw InputError(name + ": DDS with mip maps; a table has none");
+  if ((caps2 & kCubeMap) != 0) throw InputError(name + ": DDS cube map; a table is none");
+  image.height = readAt<std::uint32_t>(bytes, 12);
+  image.width = readAt<std::uint32_t>(bytes, 16);
+  const bool volume =
+      dx10 ? readAt<std::uint32_t>(bytes, kLegacySize + 4) == kTexture3d : (caps2 & kVolume) != 0;
+  if (volume) image.depth = readAt<std::uint32_t>(bytes, 24);
+  if (dx10) image.layers = readAt<std::uint32_t>(bytes, kLegacySize + 12);
+  const std::size_t start = dx10 ? kDx10Size : kLegacySize;
+  const std::size_t present = bytes.size() - start;
+  for (std::size_t side : {image.width, image.height, image.depth, image.layers}) {
+    if (side == 0 || side > kMaxSide)
+      throw InputError(fmt::format("{}: DDS header: a size of {}; need 1 to {}", name, side, kMaxSide));
+  }
+  // 2^56 at most: no overflow
+  if (image.texels() > present || image.texels() * image.components * image.bytesPerValue() != present) {
+    throw InputError(fmt::format("{}: {} x {} x {} texels, {} layers do not fit the {} bytes of data", name,
+                                 image.width, image.height, image.depth, image.layers, present));
+  }
+  image.values = readValues(bytes.substr(start), image.precision);
+  return image;
+}
+
+}  // namespace ltcfit

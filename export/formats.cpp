@@ -1,0 +1,104 @@
+#include "export/formats.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "export/anisotropic_c_header.h"
+#include "export/c_header.h"
+#include "export/js_module.h"
+#include "export/json_table.h"
+#include "export/shader_arrays.h"
+
+namespace ltcfit {
+namespace {
+
+// Containers of 2D textures, arrays and volumes hold four numbers a texel; the others any number.
+bool isTextureContainer(std::string_view format) {
+  return format == "dds" || format == "ktx2";
+}
+
+Packing packingFor(const Table& table, std::string_view format, Layout layout) {
+  if (layout == Layout::kPacked) return table.isIsotropic() ? packing2017() : packingOfRows();
+  return packingOfChannels(table.info(), isTextureContainer(format) ? 4 : table.channelCount());
+}
+
+std::string standardPrefix(const Table& table, std::string_view format, const std::string& name) {
+  if (format == "h" && !table.isIsotropic()) return "anisomats";
+  return std::filesystem::path(name).stem().string();
+}
+
+}  // namespace
+
+const std::vector<FormatInfo>& formats() {
+  static const std::vector<FormatInfo> list{
+      {"h", ".h", "C/C++ header; anisotropic: float anisomats[8][8][8][8][9] and its amplitudes", false,
+       false, true},
+      {"hlsl", ".hlsl", "HLSL include: static const float4 arrays", false, false, true},
+      {"glsl", ".glsl", "GLSL include: const vec4 arrays", false, false, true},
+      {"dds", ".dds", "DDS: 2D array of 2 layers, or volume of the 3 rows of M stacked in depth", true, true,
+       false},
+      {"ktx2", ".ktx2", "KTX2: the same, zstd supercompressed, metadata as key/value", true, true, false},
+      {"exr", ".exr", "OpenEXR: a channel for each coefficient; 8^4 laid out 64 x 64", true, true, false,
+       Layout::kChannels},
+      {"npy", ".npy", "NumPy array, shape as the axes, channels last", true, true, false, Layout::kChannels},
+      {"bin", ".bin", "raw little-endian numbers, texture after texture", true, true, false},
+      {"js", ".js", "ES module: LTC_MAT_1, LTC_MAT_2 (isotropic) or LTC_ROW_0..2; LTC_INFO", false, false,
+       false},
+      {"json", ".json", "the table file: everything, lossless", false, false, false, Layout::kChannels},
+  };
+  return list;
+}
+
+const FormatInfo* findFormat(std::string_view name) {
+  for (const FormatInfo& format : formats()) {
+    if (format.name == name) return &format;
+  }
+  return nullptr;
+}
+
+ExportResult exportTable(const Table& table, const FormatInfo& format, const FormatOptions& options,
+                         const std::string& name) {
+  const auto refuse = [&](const char* what) {
+    throw std::invalid_argument(fmt::format("--format {} {}", format.name, what));
+  };
+  if (options.precision == Precision::kHalf && !format.half) refuse("holds float32 only, not half");
+  if (options.layout != format.standard && !format.layouts) refuse("has one layout only");
+  if (!options.prefix.empty() && !format.prefix) refuse("has no identifiers for --prefix");
+  const std::string prefix =
+      options.prefix.empty() ? standardPrefix(table, format.name, name) : options.prefix;
+  ExportResult result;
+  if (format.name == "json") {
+    result.files = {{name, tableToJson(table)}};
+    return result;
+  }
+  if (format.name == "h") {
+    result.files = {{name, table.isIsotropic() ? tableToCHeader(table, prefix)
+                                               : tableToAnisotropicCHeader(table, prefix)}};
+    return result;
+  }
+  PackedTable packed = pack(table, packingFor(table, format.name, options.layout), options.precision);
+  if (format.name == "hlsl" || format.name == "glsl") {
+    const auto language = format.name == "glsl" ? ShadingLanguage::kGlsl : ShadingLanguage::kHlsl;
+    result.files = {{name, texturesToShader(packed, prefix, language)}};
+  } else if (format.name == "js") {
+    std::vector<std::string> names{"LTC_MAT_1", "LTC_MAT_2"};
+    if (!table.isIsotropic()) names = {"LTC_ROW_0", "LTC_ROW_1", "LTC_ROW_2"};
+    result.files = {{name, texturesToModule(packed, names)}};
+  } else if (format.name == "dds") {
+    result.files = toDdsFiles(packed, options.ddsHeader, name);
+  } else if (format.name == "ktx2") {
+    result.files = toKtx2Files(packed, options.ktx2Compression, name);
+  } else if (format.name == "exr") {
+    result.files = toExrFiles(packed, name);
+  } else if (format.name == "npy") {
+    result.files = toNpyFiles(packed, name);
+  } else {
+    result.files = toRawFiles(packed, name);
+  }
+  result.half = std::move(packed.half);
+  return result;
+}
+
+}  // namespace ltcfit

@@ -1,0 +1,25 @@
+// Texels as a texture file holds them, between the packings (what the numbers mean) and the containers.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace ltcfit {
+
+enum class Precision { kFloat, kHalf };
+
+/// One texture: 2D (depth 1), a 2D array (depth 1, layers > 1) or a volume (layers 1).
+struct Image {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  std::size_t depth = 1;
+  std::size_t layers = 1;
+  std::size_t components = 4;  ///< numbers of one texel
+  Precision precision = Precision::kFloat;
+  std::vector<float> values;  ///< layer, z, y, x, component: the last fastest. Exact halves for kHalf
+
+  std::size_t texels() const { return width * height * depth * layers; }
+  std::size_t bytesPerValue() const { return precision == Precision::kHalf ? 2 : 4; }
+};
+
+}  // namespace ltcfit

@@ -1,0 +1,35 @@
+#include "export/little_endian.h"
+
+#include <Eigen/Core>
+
+namespace ltcfit {
+
+std::uint16_t halfBits(float value) {
+  return Eigen::numext::bit_cast<std::uint16_t>(Eigen::half(value));
+}
+
+float halfValue(std::uint16_t bits) {
+  return static_cast<float>(Eigen::numext::bit_cast<Eigen::half>(bits));
+}
+
+void appendValues(std::string& bytes, const std::vector<float>& values, Precision precision) {
+  if (precision == Precision::kFloat) {
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+    return;
+  }
+  bytes.reserve(bytes.size() + values.size() * 2);
+  for (float v : values) append(bytes, halfBits(v));
+}
+
+std::vector<float> readValues(std::string_view bytes, Precision precision) {
+  const std::size_t size = precision == Precision::kHalf ? 2 : 4;
+  std::vector<float> values(bytes.size() / size);
+  if (precision == Precision::kFloat) {
+    std::memcpy(values.data(), bytes.data(), values.size() * size);
+    return values;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = halfValue(readAt<std::uint16_t>(bytes, 2 * i));
+  return values;
+}
+
+}  // namespace ltcfit

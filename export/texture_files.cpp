@@ -1,0 +1,249 @@
+#include "export/texture_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "export/atomic_file.h"
+#include "export/c_text.h"
+#include "export/exr.h"
+#include "export/little_endian.h"
+#include "export/npy.h"
+#include "export/texture_metadata.h"
+
+namespace ltcfit {
+namespace {
+
+constexpr std::string_view kComponentNames = "RGBA";
+// Above every table (ltc/table.cpp), and below what overflows a product of sizes.
+constexpr std::size_t kMaxNodes = std::size_t{1} << 28;
+constexpr std::size_t kMaxComponents = 16;
+
+ExportFile sidecar(const PackedTable& packed, const std::string& name, const std::string& container) {
+  return {sidecarPath(name), textureMetadata(packed, container)};
+}
+
+// Name of a channel in an EXR file.
+std::string exrChannel(const Packing& packing, std::size_t texture, std::size_t component) {
+  if (packing.textures.size() == 1) return packing.textures[0].components[component];
+  const std::string letter(1, kComponentNames[component]);
+  return texture == 0 ? letter : packing.textures[texture].name + "." + letter;
+}
+
+std::string stackText(const PackedTable& packed) {
+  if (packed.images[0].depth == 1) return "one texture a layer";
+  return fmt::format("textures stacked in depth, {} slices each", packed.images[0].depth);
+}
+
+// An image of the size that a texture of this packing has.
+Image imageFor(const PackedTable& packed, std::size_t texture) {
+  const std::vector<Axis>& axes = packed.info.axes;
+  Image image;
+  image.precision = packed.precision;
+  image.components = packed.packing.textures[texture].components.size();
+  if (axes.size() != 2 && axes.size() != 4) throw std::invalid_argument("axes: need two or four");
+  if (image.components == 0 || image.components > kMaxComponents)
+    throw std::invalid_argument("a texture needs 1 to 16 components");
+  std::size_t nodes = 1;
+  for (const Axis& axis : axes) {
+    if (axis.size() > kMaxNodes / nodes) throw std::invalid_argument("axes: more nodes than any table has");
+    nodes *= axis.size();
+  }
+  image.width = axes.back().size();
+  image.height = axes[axes.size() - 2].size();
+  image.depth = axes.size() == 4 ? axes[0].size() * axes[1].size() : 1;
+  return image;
+}
+
+}  // namespace
+
+Image stackedImage(const PackedTable& packed) {
+  Image stack = packed.images[0];
+  for (std::size_t t = 1; t < packed.images.size(); ++t) {
+    const Image& image = packed.images[t];
+    if (image.components != stack.components) throw std::invalid_argument("textures differ in components");
+    stack.values.insert(stack.values.end(), image.values.begin(), image.values.end());
+    (stack.depth > 1 ? stack.depth : stack.layers) += image.depth;
+  }
+  return stack;
+}
+
+std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed) {
+  std::vector<Image> images;
+  std::size_t at = 0;
+  for (std::size_t t = 0; t < packed.packing.textures.size(); ++t) {
+    Image image = imageFor(packed, t);
+    const std::size_t count = image.texels() * image.components;
+    if (image.width != stack.width || image.height != stack.height || image.components != stack.components ||
+        count > stack.values.size() - at) {
+      throw std::invalid_argument("the size of the texture does not fit the axes");
+    }
+    const auto begin = stack.values.begin() + static_cast<std::ptrdiff_t>(at);
+    image.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    at += count;
+    images.push_back(std::move(image));
+  }
+  if (at != stack.values.size()) throw std::invalid_argument("the size of the texture does not fit the axes");
+  return images;
+}
+
+std::vector<ExportFile> toKtx2Files(const PackedTable& packed, Ktx2Compression compression,
+                                    const std::string& name) {
+  Ktx2File file;
+  file.image = stackedImage(packed);
+  file.keyValues = {{"KTXwriter", "ltcfit " LTCFIT_VERSION},
+                    {kMetadataKey, textureMetadata(packed, stackText(packed))}};
+  return {{name, imageToKtx2(file, compression)}};
+}
+
+std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header, const std::string& name) {
+  const Image stack = stackedImage(packed);
+  if (stack.layers == 1 || header == DdsHeader::kDx10)
+    return {{name, imageToDds(stack, header)}, sidecar(packed, name, stackText(packed))};
+  const std::filesystem::path path(name);
+  std::vector<std::string> names;
+  for (std::size_t t = 0; t < packed.images.size(); ++t)
+    names.push_back(fmt::format("{}-{}{}", path.stem().string(), t + 1, path.extension().string()));
+  return toDdsFiles(std::move(packed), header, names);
+}
+
+std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header,
+                                   const std::vector<std::string>& names) {
+  std::vector<ExportFile> files;
+  for (std::size_t t = 0; t < packed.images.size(); ++t)
+    files.push_back({names[t], imageToDds(packed.images[t], header)});
+  packed.files = names;
+  files.push_back(sidecar(packed, names[0], "one file a texture"));
+  return files;
+}
+
+std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string& name) {
+  ExrFile file;
+  const Image& first = packed.images[0];
+  file.width = first.depth == 1 ? first.width : first.width * first.height;
+  file.height = first.depth == 1 ? first.height : first.depth;
+  file.precision = packed.precision;
+  for (std::size_t t = 0; t < packed.images.size(); ++t) {
+    const Image& image = packed.images[t];
+    for (std::size_t c = 0; c < image.components; ++c) {
+      std::vector<float> channel(image.texels());
+      for (std::size_t i = 0; i < channel.size(); ++i) channel[i] = image.values[i * image.components + c];
+      file.names.push_back(exrChannel(packed.packing, t, c));
+      file.channels.push_back(std::move(channel));
+    }
+  }
+  const TableInfo& info = packed.info;
+  const bool volume = first.depth > 1;
+  const std::string layout =
+      volume
+          ? fmt::format("x = phi + {} theta, y = lambda + {} alpha (nodes)", first.width, info.axes[1].size())
+          : std::string("x = alpha, y = theta (nodes); first row of the file is normal incidence");
+  std::string contents;
+  for (const TextureSpec& texture : packed.packing.textures)
+    contents += fmt::format("{}{} = ({})", contents.empty() ? "" : ", ", texture.name,
+                            fmt::join(texture.components, ", "));
+  file.attributes = {
+      {kMetadataKey, textureMetadata(packed, layout)},
+      {"ltcContents", contents},
+      {"ltcLayout", layout},
+      {"ltcMatrix", fmt::format("{} over {}, times {}, m{{row}}{{column}}", matrixStorageName(info.stores),
+                                divisorName(packed.packing.divisor), packed.scale)},
+      {"ltcCommand", info.provenance.command},
+      {"comments", "Linearly Transformed Cosines for GGX; not colours: no colour management"}};
+  for (const Axis& axis : info.axes) file.attributes.emplace_back("ltcAxis_" + axis.name, axisFormula(axis));
+  return {{name, channelsToExr(file)}};
+}
+
+std::vector<ExportFile> toNpyFiles(const PackedTable& packed, const std::string& name) {
+  FloatArray array;
+  if (packed.images.size() > 1) array.shape.push_back(packed.images.size());
+  for (const Axis& axis : packed.info.axes) array.shape.push_back(axis.size());
+  array.shape.push_back(packed.images[0].components);
+  for (const Image& image : packed.images)
+    array.values.insert(array.values.end(), image.values.begin(), image.values.end());
+  return {{name, arrayToNpy(array, packed.precision)},
+          sidecar(packed, name,
+                  packed.images.size() > 1 ? "array (textures, axes.., components)"
+                                           : "array (axes.., components)")};
+}
+
+std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string& name) {
+  std::string bytes;
+  for (const Image& image : packed.images) appendValues(bytes, image.values, packed.precision);
+  return {{name, std::move(bytes)}, sidecar(packed, name, kRawContainer)};
+}
+
+Table tableFromImages(PackedTable packed, std::vector<Image> images, const std::string& name) {
+  try {
+    packed.images = std::move(images);
+    return unpack(packed);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
+
+Table tableFromStack(PackedTable packed, const Image& stack, const std::string& name) {
+  try {
+    std::vector<Image> images = unstackedImages(stack, packed);
+    return tableFromImages(std::move(packed), std::move(images), name);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
+
+Table tableFromExr(std::string_view bytes, const std::string& name) {
+  const ExrFile file = parseExr(bytes, name);
+  const auto metadata = std::find_if(file.attributes.begin(), file.attributes.end(),
+                                     [](const auto& a) { return a.first == kMetadataKey; });
+  if (metadata == file.attributes.end())
+    throw InputError(name + ": an EXR image, but not one of ltcfit's (no attribute 'ltcfit')");
+  PackedTable packed = packedFromMetadata(metadata->second, name);
+  std::vector<Image> images;
+  try {
+    for (std::size_t t = 0; t < packed.packing.textures.size(); ++t) {
+      Image image = imageFor(packed, t);
+      const bool volume = image.depth > 1;
+      if (file.width != (volume ? image.width * image.height : image.width) ||
+          file.height != (volume ? image.depth : image.height) ||
+          (packed.packing.textures.size() > 1 && image.components > kComponentNames.size())) {
+        throw std::invalid_argument("the size of the image does not fit the axes");
+      }
+      image.values.resize(image.texels() * image.components);
+      for (std::size_t c = 0; c < image.components; ++c) {
+        const std::string channel = exrChannel(packed.packing, t, c);
+        const auto at = std::find(file.names.begin(), file.names.end(), channel);
+        if (at == file.names.end()) throw std::invalid_argument("EXR: no channel '" + channel + "'");
+        const std::vector<float>& values = file.channels[static_cast<std::size_t>(at - file.names.begin())];
+        for (std::size_t i = 0; i < values.size(); ++i) image.values[i * image.components + c] = values[i];
+      }
+      images.push_back(std::move(image));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw InputError(name + ": " + error.what());
+  }
+  return tableFromImages(std::move(packed), std::move(images), name);
+}
+
+Table tableFromNumbers(PackedTable packed, const std::vector<float>& numbers, const std::string& name) {
+  std::vector<Image> images;
+  std::size_t at = 0;
+  try {
+    for (std::size_t t = 0; t < packed.packing.textures.size(); ++t) {
+      Image image = imageFor(packed, t);
+      const std::size_t count = image.texels() * image.components;
+      if (count > numbers.size() - at) throw std::invalid_argument("too few numbers for the axes");
+      const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(at);
+      image.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+      at += count;
+      images.push_back(std::move(image));
+    }
+    if (at != numbers.size()) throw std::invalid_argument("more numbers than the axes have nodes");
+  } catch (const std::invalid_argument& error) {
+    throw InputError(name + ": " + error.what());
+  }
+  return tableFromImages(std::move(packed), std::move(images), name);
+}
+
+}  // namespace ltcfit

@@ -1,0 +1,60 @@
+// Tables in texture files: the packing and its metadata go into the container, and come back out of it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "export/dds.h"
+#include "export/ktx2.h"
+#include "export/packing.h"
+
+namespace ltcfit {
+
+/// A file to be written: its name within the folder that the user chose, and all of its bytes.
+struct ExportFile {
+  std::string name;
+  std::string bytes;
+};
+
+/// The textures as layers of one array (isotropic) or on top of each other along z (anisotropic: texture t
+/// begins at slice t * n_alpha * n_lambda). All textures of the packing have one size.
+Image stackedImage(const PackedTable& packed);
+
+/// The inverse: as many images as the packing has textures. std::invalid_argument where the image's size does
+/// not fit them.
+std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed);
+
+/// Each returns the file `name`, and where the format has no place for metadata a sidecar. Exceptions of the
+/// containers pass through.
+std::vector<ExportFile> toKtx2Files(const PackedTable& packed, Ktx2Compression compression,
+                                    const std::string& name);
+/// kDx10: one file, an array or a volume. kLegacy, which has no arrays: "x.dds" becomes "x-1.dds", "x-2.dds",
+/// ... for an isotropic table.
+std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header, const std::string& name);
+/// One texture each, under the names told.
+std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header,
+                                   const std::vector<std::string>& names);
+/// One image: a row for each pair of the two slowest axes' nodes (or node of the slowest of two axes), a
+/// column for each of the fastest: 64 x 64 for the 8^4 table, x = phi + 8 theta, y = lambda + 8 alpha.
+/// Channels named after the coefficients where the packing has one texture, else R, G, B, A for the first and
+/// NAME.R, ... for the others. Metadata in the attribute "ltcfit", and its main points in attributes of their
+/// own.
+std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string& name);
+/// Shape (axes.., components) for a packing of one texture, (textures, axes.., components) for several.
+std::vector<ExportFile> toNpyFiles(const PackedTable& packed, const std::string& name);
+/// The textures one after the other, nothing else.
+std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string& name);
+
+/// The inverses, `packed` being what packedFromMetadata said. InputError with `name` where the file does not
+/// fit it.
+Table tableFromImages(PackedTable packed, std::vector<Image> images, const std::string& name);
+Table tableFromStack(PackedTable packed, const Image& stack, const std::string& name);
+Table tableFromExr(std::string_view bytes, const std::string& name);
+/// Numbers of .npy or raw files.
+Table tableFromNumbers(PackedTable packed, const std::vector<float>& numbers, const std::string& name);
+
+/// The key and attribute that holds the metadata.
+inline constexpr const char* kMetadataKey = "ltcfit";
+
+}  // namespace ltcfit

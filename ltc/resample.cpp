@@ -1,0 +1,47 @@
+#include "ltc/resample.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace ltcfit {
+namespace {
+
+// Where a shader finds a node: its texel's coordinate, which at clamped ends is not the value it was fitted
+// with.
+LobeParameters texelParameters(const TableInfo& info, const std::vector<std::size_t>& node) {
+  const auto value = [&](std::size_t a) { return info.axes[a].valueFromTexel(static_cast<double>(node[a])); };
+  if (node.size() == 2) return {value(1), value(1), value(0), 0.0};
+  return {value(0), value(0) * value(1), value(2), value(3)};
+}
+
+}  // namespace
+
+Table resampled(const Table& table, std::vector<Axis> axes) {
+  TableInfo info = table.info();
+  if (axes.size() != info.axes.size())
+    throw std::invalid_argument("the new axes are of another kind than the table's");
+  info.axes = std::move(axes);
+  std::size_t nodes = 1;
+  for (const Axis& axis : info.axes) nodes *= axis.size();
+  const Table target(info, std::vector<float>(nodes * info.channels.size()));  // checks axes, numbers nodes
+  std::vector<float> data;
+  data.reserve(target.data().size());
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const TableEntry entry = table.fetch(texelParameters(target.info(), target.node(i)));
+    if (!entry.invertible) throw std::invalid_argument("node " + std::to_string(i) + " has no inverse");
+    const Eigen::Matrix3d m =
+        normalized(info.stores == MatrixStorage::kM ? entry.m : entry.mInv, info.normalization);
+    for (const std::string& channel : info.channels) {
+      if (channel == "norm") {
+        data.push_back(static_cast<float>(*entry.norm));
+      } else if (channel == "fresnel") {
+        data.push_back(static_cast<float>(*entry.fresnel));
+      } else {
+        data.push_back(static_cast<float>(m(channel[1] - '0', channel[2] - '0')));
+      }
+    }
+  }
+  return Table(std::move(info), std::move(data));
+}
+
+}  // namespace ltcfit

@@ -1,0 +1,112 @@
+#include "report/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "ltc/ltc.h"
+
+namespace ltcfit {
+namespace {
+
+constexpr int kDirections = 256;
+constexpr int kProjections = 16;
+
+using Directions = Eigen::Matrix<double, 3, kDirections>;
+
+// A point of a lattice over the unit square: the golden ratio's multiples against even steps.
+Eigen::Vector2d latticePoint(int i, int n) {
+  return {(i + 0.5) / n, std::fmod((i + 0.5) / std::numbers::phi, 1.0)};
+}
+
+Directions lobeDirections(const Eigen::Matrix3d& m) {
+  Directions x;
+  for (int i = 0; i < kDirections; ++i) x.col(i) = sampleCosine(latticePoint(i, kDirections));
+  return (m * x).colwise().normalized();
+}
+
+// Even over the half sphere: opposite directions project alike.
+Eigen::Vector3d projection(int i) {
+  const Eigen::Vector2d u = latticePoint(i, kProjections);
+  const double radius = std::sqrt(1.0 - u.x() * u.x());
+  const double azimuth = 2.0 * std::numbers::pi * u.y();
+  return {radius * std::cos(azimuth), radius * std::sin(azimuth), u.x()};
+}
+
+double distance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  const Directions x = lobeDirections(a);
+  const Directions y = lobeDirections(b);
+  double sum = 0.0;
+  for (int i = 0; i < kProjections; ++i) {
+    Eigen::Matrix<double, 1, kDirections> p = projection(i).transpose() * x;
+    Eigen::Matrix<double, 1, kDirections> q = projection(i).transpose() * y;
+    std::sort(p.data(), p.data() + kDirections);
+    std::sort(q.data(), q.data() + kDirections);
+    sum += (p - q).cwiseAbs().mean();
+  }
+  return sum / kProjections;
+}
+
+bool sameNodes(const Table& a, const Table& b) {
+  return std::equal(
+      a.info().axes.begin(), a.info().axes.end(), b.info().axes.begin(), b.info().axes.end(),
+      [](const Axis& x, const Axis& y) {
+        return x.size() == y.size() && x.map == y.map &&
+               (x.map == AxisMap::kNone ? x.values == y.values : x.low == y.low && x.high == y.high);
+      });
+}
+
+}  // namespace
+
+TableDifference compareTables(const Table& first, const Table& second) {
+  if (first.isIsotropic() != second.isIsotropic())
+    throw std::invalid_argument("one table is isotropic, the other anisotropic");
+  TableDifference out;
+  out.sameNodes = sameNodes(first, second);
+  out.sameStorage = out.sameNodes && first.info().stores == second.info().stores &&
+                    first.info().normalization == second.info().normalization &&
+                    first.info().channels == second.info().channels;
+  const std::size_t nodes = first.nodeCount();
+  if (out.sameStorage) {
+    const std::size_t count = first.channelCount();
+    for (std::size_t c = 0; c < count; ++c) {
+      ChannelDifference difference{first.info().channels[c], 0, 0.0};
+      for (std::size_t i = c; i < first.data().size(); i += count) {
+        const double d =
+            std::abs(static_cast<double>(first.data()[i]) - static_cast<double>(second.data()[i]));
+        difference.different += d > 0.0 ? 1 : 0;
+        difference.largest = std::max(difference.largest, d);
+      }
+      out.channels.push_back(difference);
+    }
+  }
+  const double kMissing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sw1(nodes, kMissing);
+  std::vector<double> norm(nodes, kMissing);
+  std::vector<double> fresnel(nodes, kMissing);
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const std::vector<std::size_t> node = first.node(i);
+    const TableEntry a = first.entry(node);
+    const TableEntry b = out.sameNodes ? second.entry(node) : second.fetch(first.parameters(node));
+    if (a.invertible && b.invertible) sw1[i] = distance(a.m, b.m);
+    if (a.norm && b.norm) norm[i] = std::abs(*a.norm - *b.norm);
+    if (a.fresnel && b.fresnel) fresnel[i] = std::abs(*a.fresnel - *b.fresnel);
+  }
+  double worst = -1.0;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    out.singular += std::isnan(sw1[i]) ? 1 : 0;
+    if (sw1[i] > worst) {
+      worst = sw1[i];
+      out.worstNode = i;
+    }
+  }
+  out.sw1 = summarize(sw1);
+  out.norm = summarize(norm);
+  out.fresnel = summarize(fresnel);
+  return out;
+}
+
+}  // namespace ltcfit

@@ -1,0 +1,36 @@
+// How two tables differ: as numbers and as lobes, without a look at what they stand for.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ltc/table.h"
+#include "report/statistics.h"
+
+namespace ltcfit {
+
+struct ChannelDifference {
+  std::string channel;
+  std::size_t different = 0;  ///< nodes at which the float32 values differ
+  double largest = 0.0;       ///< absolute
+};
+
+struct TableDifference {
+  bool sameNodes = false;    ///< the axes have the same nodes: the second table was not interpolated
+  bool sameStorage = false;  ///< and both store the same channels of the same matrix, scaled alike
+  std::vector<ChannelDifference> channels;  ///< where sameStorage
+  Summary sw1;   ///< over the first table's nodes: distance between the two lobes, 0..2
+  Summary norm;  ///< |difference|; count 0 where a table has no such channel
+  Summary fresnel;
+  std::size_t singular = 0;   ///< nodes at which one of the two has no inverse: in no summary
+  std::size_t worstNode = 0;  ///< of sw1, in the first table
+};
+
+/// Compares at the nodes of the first table. The distance is the sliced Wasserstein one between the two LTCs:
+/// 256 directions of each, 16 projections, the same for both, so that equal lobes have distance 0 and the
+/// same lobe under another matrix (turned about z from the right) a small one, at most 0.02 of its width.
+/// Throws std::invalid_argument where one is isotropic and the other anisotropic. Independent of threads.
+TableDifference compareTables(const Table& first, const Table& second);
+
+}  // namespace ltcfit
