@@ -1,0 +1,41 @@
+// The shader snippets, compiled as C++: the very text of the .glsl and .hlsl files, between GLM and a few
+// lines that stand for what the languages have built in.
+#pragma once
+
+#include <array>
+#include <ostream>
+#include <vector>
+
+#include "tests/render/texture.h"
+
+namespace ltcfit::test {
+
+using Vec3 = std::array<float, 3>;
+using Mat3 = std::array<Vec3, 3>;  // rows
+
+struct ShaderEntry {
+  Mat3 inverse;
+  float norm;
+  float fresnel;
+};
+
+struct Shader {
+  const char* name;
+  ShaderEntry (*fetch)(const Texture& matrix, const Texture& amplitude, float roughness, float nDotV);
+  ShaderEntry (*fetchAnisotropic)(const Texture& table, int nAlpha, int nLambda, float alphaX, float alphaY,
+                                  Vec3 view);
+  Mat3 (*frame)(Vec3 n, Vec3 v);
+  float (*quad)(const Mat3& inverse, const std::array<Vec3, 4>& vertices);
+  float (*polygon)(const Mat3& inverse, const std::vector<Vec3>& vertices);  // up to 8
+  Vec3 (*fresnel)(const ShaderEntry& entry, Vec3 f0, Vec3 f90);
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Shader& shader) {
+  return out << shader.name;
+}
+
+extern const Shader kGlsl;
+/// Here dot, cross and mul fuse multiply and add, as GPUs may; in kGlsl they round every product.
+extern const Shader kHlsl;
+
+}  // namespace ltcfit::test

@@ -1,0 +1,95 @@
+# The shader snippets compile: GLSL 3.30 and ES 3.00, HLSL to valid SPIR-V; isotropic, anisotropic and both.
+validator=$1
+spirv_val=$2  # empty: the SPIR-V is not checked
+shaders=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+glsl_head='uniform sampler2D matrixTable;
+uniform sampler2D amplitudeTable;
+uniform sampler3D lobes;
+uniform vec3 corners[LTC_MAX_VERTICES];
+in vec3 position;
+in vec3 normal;
+in vec3 tangent;
+in vec3 view;
+out vec4 colour;
+float quad(mat3 inverse, mat3 frame) {
+  return ltcQuad(inverse, frame * (corners[0] - position), frame * (corners[1] - position),
+                 frame * (corners[2] - position), frame * (corners[3] - position));
+}
+'
+glsl_isotropic='LtcEntry entry = ltcFetch(matrixTable, amplitudeTable, 0.4, dot(normal, view));
+  mat3 frame = ltcFrame(normal, view);
+  colour.rgb += abs(quad(entry.inverse, frame)) * ltcFresnel(entry, vec3(0.04), vec3(1.0));
+  colour.rgb += abs(quad(mat3(1.0), frame));
+'
+glsl_anisotropic='mat3 along = ltcFrame(normal, tangent);
+  LtcEntry brushed = ltcFetchAnisotropic(lobes, ivec2(8), 0.5, 0.1, along * view);
+  colour.rgb += abs(quad(brushed.inverse, along)) * ltcFresnel(brushed, vec3(0.9), vec3(1.0));
+  vec3 local[LTC_MAX_VERTICES];
+  for (int i = 0; i < LTC_MAX_VERTICES; ++i) local[i] = along * (corners[i] - position);
+  colour.a = ltcPolygon(brushed.inverse, local, 5);
+'
+hlsl_head='Texture2D matrixTable;
+Texture2D amplitudeTable;
+Texture3D lobes;
+SamplerState bilinear;
+cbuffer Light { float4 corners[LTC_MAX_VERTICES]; };
+struct Surface { float3 position : P; float3 normal : N; float3 tangent : T; float3 view : V; };
+float quad(float3x3 inverse, float3x3 frame, float3 position) {
+  return ltcQuad(inverse, mul(frame, corners[0].xyz - position), mul(frame, corners[1].xyz - position),
+                 mul(frame, corners[2].xyz - position), mul(frame, corners[3].xyz - position));
+}
+'
+hlsl_isotropic='LtcEntry entry = ltcFetch(matrixTable, amplitudeTable, bilinear, 0.4, dot(s.normal, s.view));
+  float3x3 frame = ltcFrame(s.normal, s.view);
+  float3x3 cosine = float3x3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+  colour.rgb += abs(quad(entry.inverse, frame, s.position)) * ltcFresnel(entry, (float3)0.04, (float3)1.0);
+  colour.rgb += abs(quad(cosine, frame, s.position));
+'
+hlsl_anisotropic='float3x3 along = ltcFrame(s.normal, s.tangent);
+  LtcEntry brushed = ltcFetchAnisotropic(lobes, bilinear, int2(8, 8), 0.5, 0.1, mul(along, s.view));
+  colour.rgb += abs(quad(brushed.inverse, along, s.position)) * ltcFresnel(brushed, (float3)0.9, (float3)1.0);
+  float3 local[LTC_MAX_VERTICES];
+  for (int i = 0; i < LTC_MAX_VERTICES; ++i) local[i] = mul(along, corners[i].xyz - s.position);
+  colour.a = ltcPolygon(brushed.inverse, local, 5);
+'
+
+# glsl VERSION BODY, hlsl BODY: whether a fragment shader with that body compiles; what is said goes to log
+glsl() {
+  {
+    echo "#version $1"
+    cat "$shaders/ltc.glsl"
+    echo "$glsl_head void main() { colour = vec4(0.0); $2 }"
+  } > "$work/test.frag"
+  "$validator" "$work/test.frag" > "$work/log" 2>&1
+}
+hlsl() {
+  {
+    cat "$shaders/ltc.hlsl"
+    echo "$hlsl_head float4 main(Surface s) : SV_Target { float4 colour = (float4)0.0; $1 return colour; }"
+  } > "$work/test.hlsl"
+  "$validator" -D -V -S frag -e main -o "$work/test.spv" "$work/test.hlsl" > "$work/log" 2>&1 || return 1
+  if [ -n "$spirv_val" ]; then "$spirv_val" "$work/test.spv" >> "$work/log" 2>&1; fi
+}
+fail() {
+  echo "$1"
+  cat "$work/log"
+  exit 1
+}
+
+for version in "330 core" "300 es"; do
+  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_isotropic $glsl_anisotropic"; do
+    glsl "$version" "$body" || fail "GLSL $version does not compile"
+  done
+  # without these two the above would prove nothing
+  glsl "$version" "LtcEntry e = ltcFetch(lobes, 0.4, 1.0);" && fail "GLSL $version: a wrong call compiles"
+  glsl "$version" "colour = ltcFrame(normal, view);" && fail "GLSL $version: a wrong type compiles"
+done
+for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_isotropic $hlsl_anisotropic"; do
+  hlsl "$body" || fail "HLSL does not compile"
+done
+hlsl "LtcEntry e = ltcFetch(matrixTable, 0.4, 1.0);" && fail "HLSL: a wrong call compiles"
+hlsl "colour = ltcFrame(s.normal, s.view);" && fail "HLSL: a wrong type compiles"
+echo "all compiled"
