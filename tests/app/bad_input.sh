@@ -54,7 +54,6 @@ expect "would overwrite this table" export good.json -o good.json
 expect "--min-alpha" score good.json --min-alpha -0.5
 expect "no point is left" score good.json --points extreme --min-alpha 0.9
 for f in truncated count nan null axis version missing; do expect "$f.json" export $f.json -o x.h; done
-expect "--format" export good.json -o x.png --format png
 expect "no/such" export good.json -o no/such/x.h
 expect "is a folder" export good.json -o .
 expect "--output is required" export good.json
@@ -89,6 +88,36 @@ expect "--fitter" fit iso -o x.json --fitter magic
 expect "--seed" fit iso -o x.json --seed -1
 expect "name the same file" fit iso -o x.json --report x.json
 expect "--prefix" export good.json -o y.json --prefix a
+expect "not known" export good.json -o x.png --format png
+expect "holds float32 only" export good.json -o x.h --precision half
+expect "--precision" export good.json -o x.dds --precision double
+expect "--layout" export good.json -o x.dds --layout planes
+expect "has one layout only" export good.json -o x.js --layout channels
+expect "--dds-header" export good.json -o x.ktx2 --dds-header legacy
+expect "--uncompressed" export good.json -o x.dds --uncompressed
+expect "--resample needs" export good.json -o x.dds --resample
+expect "not known" export good.json -o x --profile engine
+expect "a profile settles this" export good.json -o x --profile three --format js
+expect "ltcfit fit iso --size 64x64 --axes 2017" export good.json -o x.js --profile three
+expect "ltcfit fit iso --size 32x32 --axes 2016" export good.json -o x --profile o3de
+expect "ltcfit fit aniso" export good.json -o x.h --profile anisotropic-2022 --resample
+expect "is a file" export good.json -o good.json --profile godot --resample
+expect "no/such" export good.json -o no/such --profile godot --resample
+expect "a table to read is required" export -o x.h
+expect "--tolerance" compare good.json good.json --tolerance -1
+expect "missing.json" compare good.json missing.json
+expect "is required" compare good.json
+"$ltcfit" export -q good.json -o t.dds || fail "export of a DDS"
+head -c 100 t.dds > cut.dds
+expect "cut.dds: not a DDS file, or cut off" score cut.dds
+expect "t.dds.json: describes a texture file" score t.dds.json
+sed 's/"scale": 1.0/"scale": 3.0/' t.dds.json > cut.dds.json; cp t.dds cut.dds
+expect "cut.dds.json: matrix.scale" score cut.dds
+rm t.dds t.dds.json cut.dds cut.dds.json
+# profiles of several files: nothing is written over the input
+mkdir folder; "$ltcfit" export -q good.json -o folder --profile selfshadow-dds --resample || fail "selfshadow-dds"
+expect "would overwrite this table" export folder/ltc_1.dds -o folder --profile selfshadow-dds
+rm -r folder
 expect "needs --fitter l3" fit iso -o x.json --family 3
 expect "needs --fitter l3" fit iso -o x.json --max-evaluations 5
 expect "needs --fitter light, sw" fit iso -o x.json --fitter l3 --preset fast
@@ -137,6 +166,11 @@ expect "unknown command .nonsense." nonsense x
 grep -q "entries are unusable" stderr.txt || fail "no message for unusable entries"
 [ ! -e x.json ] && grep -q ",0$" r.csv || fail "a table was written, or no report"
 rm -f r.csv stderr.txt
+# compare: equal, different
+"$ltcfit" compare good.json good.json --tolerance 0 >/dev/null || fail "compare of equal tables"
+"$ltcfit" export -q good.json -o h.npy --precision half && "$ltcfit" compare good.json h.npy --tolerance 1e-6 >/dev/null 2>&1
+[ $? -eq 3 ] || fail "no exit 3 for different tables"
+rm h.npy h.npy.json
 # a closed or full stderr does not change the exit code, a full stdout is a failure
 for target in /dev/full; do
   [ -e $target ] || continue
@@ -157,5 +191,5 @@ rm link.json target.json
 [ "$(ls)" = "$(cat before)" ] || fail "files were left: $(ls | diff before - | tr '\n' ' ')"
 "$ltcfit" --help | grep -q "Exit codes" || fail "--help"
 "$ltcfit" --version | grep -q "^ltcfit [0-9]" || fail "--version"
-for c in "fit iso" score export; do "$ltcfit" $c --help | grep -q -- "--" || fail "$c --help"; done
+for c in "fit iso" score export compare; do "$ltcfit" $c --help | grep -q -- "--" || fail "$c --help"; done
 finish

@@ -14,6 +14,9 @@ print('largest difference', worst)
 sys.exit(0 if same and worst < 1e-3 else 1)
 PY
   fi
+  "$ltcfit" export -q "$source_dir/data/ltc_$kind.json" -o ltc_$kind.ktx2 --precision half &&
+    cmp ltc_$kind.ktx2 "$source_dir/data/ltc_$kind.ktx2" || fail "data/ltc_$kind.ktx2"
   "$ltcfit" export -q "$source_dir/data/ltc_$kind.json" --format h -o ltc_$kind.h && cmp ltc_$kind.h "$source_dir/data/ltc_$kind.h" || fail "data/ltc_$kind.h"
 done
+(cd "$source_dir/data" && sha256sum --quiet -c SHA256SUMS) || fail "data/SHA256SUMS"
 finish
