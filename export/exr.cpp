@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -22,8 +23,13 @@ namespace {
 
 constexpr std::string_view kMagic("\x76\x2F\x31\x01", 4);
 constexpr int kMaxSide = 16384;
-// No compression of OpenEXR makes less than a thousandth of its data (deflate's limit is 1032).
-constexpr std::size_t kMaxRatio = 1032;
+
+// The lossless compressions, in the order of their codes. A table is not for the lossy ones.
+struct Compression {
+  std::int64_t lines;  // of a block
+  std::int64_t ratio;  // data to file at most: 1032 is deflate's limit, PIZ' is lower
+};
+constexpr std::array<Compression, 5> kCompressions{{{1, 1}, {1, 1032}, {1, 1032}, {16, 1032}, {32, 1032}}};
 
 class StringOutput : public OPENEXR_IMF_NAMESPACE::OStream {
  public:
@@ -58,6 +64,137 @@ class StringInput : public OPENEXR_IMF_NAMESPACE::IStream {
 
  private:
   std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw InputError(name + ": EXR: " + what);
+}
+
+// Attribute types and their lengths. OpenEXR reads that many bytes whatever length the file tells, and goes
+// on with what follows them as the next attribute.
+struct AttributeSize {
+  std::size_t size;
+  std::string_view types;
+};
+constexpr std::array<AttributeSize, 12> kAttributeSizes{{{1, " compression deepImageState envmap lineOrder "},
+                                                         {4, " float int "},
+                                                         {8, " double rational timecode v2f v2i "},
+                                                         {12, " v3f v3i "},
+                                                         {16, " box2f box2i v2d "},
+                                                         {24, " v3d "},
+                                                         {28, " keycode "},
+                                                         {32, " chromaticities "},
+                                                         {36, " m33f "},
+                                                         {64, " m44f "},
+                                                         {72, " m33d "},
+                                                         {128, " m44d "}}};
+// Types of which no table has any: they hold lengths of their own, or belong to other kinds of files.
+constexpr std::array<std::string_view, 3> kRefusedTypes{"idmanifest", "stringvector", "tiledesc"};
+
+// The parts of a header that decide how much OpenEXR allocates, read before it sees the file: of its own it
+// takes the lengths of attributes, tiles and blocks for granted.
+class HeaderCheck {
+ public:
+  HeaderCheck(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+
+  void run() {
+    if (bytes_.size() < 8) cutOff();
+    const auto version = readAt<std::uint32_t>(bytes_, 4);
+    if ((version & ~kLongNames) != 2)
+      refuse(name_, "tiled, deep, multi-part or of another version; need scan lines");
+    std::string_view window;
+    std::string_view compression;
+    std::string_view channels;
+    for (at_ = 8;;) {
+      const std::string_view key = string();
+      if (key.empty()) break;
+      const std::string_view type = string();
+      const auto length = readAt<std::uint32_t>(take(4), 0);
+      const std::string_view value = take(length);
+      if (key == "dataWindow") keep(window, value);
+      if (key == "compression") keep(compression, value);
+      if (key == "channels") keep(channels, value);
+      // OpenEXR reads on until the list ends: only the one that is checked
+      if ((key == "channels") != (type == "chlist")) refuse(name_, "a list of channels in a wrong place");
+      if (key == "type" && value != "scanlineimage") refuse(name_, "not an image of scan lines");
+      checkAttribute(key, type, length);
+    }
+    if (window.size() != 16 || compression.size() != 1 || channels.empty())
+      refuse(name_, "no data window, compression or channels");
+    checkSize(window, static_cast<unsigned char>(compression[0]), bytesOfPixel(channels));
+  }
+
+ private:
+  static constexpr std::uint32_t kLongNames = 0x400;
+
+  void keep(std::string_view& kept, std::string_view value) const {
+    if (kept.data() != nullptr) refuse(name_, "an attribute twice");
+    kept = value;
+  }
+  [[noreturn]] void cutOff() const { refuse(name_, "cut off in its header"); }
+  std::string_view take(std::size_t length) {
+    if (length > bytes_.size() - at_) cutOff();
+    at_ += length;
+    return bytes_.substr(at_ - length, length);
+  }
+  // up to a zero
+  std::string_view string() {
+    const std::size_t end = bytes_.find('\0', at_);
+    if (end == std::string_view::npos) cutOff();
+    const std::string_view text = take(end - at_);
+    ++at_;
+    return text;
+  }
+  void checkAttribute(std::string_view key, std::string_view type, std::size_t length) const {
+    bool fits = type != "floatvector" || length % 4 == 0;
+    for (const AttributeSize& entry : kAttributeSizes) {
+      if (entry.types.find(fmt::format(" {} ", type)) != std::string_view::npos) fits = length == entry.size;
+    }
+    if (!fits) refuse(name_, fmt::format("attribute '{}': {} bytes are no {}", key, length, type));
+    if (std::find(kRefusedTypes.begin(), kRefusedTypes.end(), type) != kRefusedTypes.end())
+      refuse(name_, fmt::format("attribute '{}' of type '{}', which no table has", key, type));
+  }
+  // Of all channels.
+  std::int64_t bytesOfPixel(std::string_view list) const {
+    std::int64_t size = 0;
+    std::size_t at = 0;
+    while (at < list.size() && list[at] != '\0') {
+      // name, type, 4 bytes, sampling of x and y
+      const std::size_t end = list.find('\0', at);
+      if (end == std::string_view::npos || list.size() - end < 17) cutOff();
+      const auto type = readAt<std::uint32_t>(list, end + 1);
+      if ((type != 1 && type != 2) || readAt<std::uint32_t>(list, end + 9) != 1 ||
+          readAt<std::uint32_t>(list, end + 13) != 1) {
+        refuse(name_,
+               fmt::format("channel '{}' is not one of numbers at every pixel", list.substr(at, end - at)));
+      }
+      size += type == 1 ? 2 : 4;
+      at = end + 17;
+    }
+    if (size == 0 || at + 1 != list.size()) refuse(name_, "no channels, or something behind them");
+    return size;
+  }
+  void checkSize(std::string_view window, std::size_t code, std::int64_t pixel) const {
+    const auto side = [&](std::size_t axis) {
+      return std::int64_t{readAt<std::int32_t>(window, 8 + axis)} - readAt<std::int32_t>(window, axis) + 1;
+    };
+    const std::int64_t width = side(0);
+    const std::int64_t height = side(4);
+    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+      refuse(name_, "a size that no table has");
+    if (code >= kCompressions.size())
+      refuse(name_, fmt::format("compression {}: lossy, which a table must not be, or unknown", code));
+    const Compression& c = kCompressions[code];
+    // a block is allocated whole, be the image lower or not; and the table of blocks has 8 bytes for each
+    const auto length = static_cast<std::int64_t>(bytes_.size());
+    if (width * pixel * std::max(height, c.lines) > length * c.ratio ||
+        (height + c.lines - 1) / c.lines * 8 > length)
+      refuse(name_, "more pixels than its length can hold");
+  }
+
+  std::string_view bytes_;
+  std::string name_;
   std::size_t at_ = 0;
 };
 
@@ -100,40 +237,31 @@ bool isExr(std::string_view bytes) {
 
 ExrFile parseExr(std::string_view bytes, const std::string& name) {
   namespace imf = OPENEXR_IMF_NAMESPACE;
-  const auto refuse = [&](const std::string& what) { throw InputError(name + ": EXR: " + what); };
+  HeaderCheck(bytes, name).run();
   ExrFile file;
   try {
-    imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
     StringInput stream(bytes);
     imf::InputFile input(stream, 1);
     const imf::Header& header = input.header();
     const auto& window = header.dataWindow();
-    const auto width = std::int64_t{window.max.x} - window.min.x + 1;
-    const auto height = std::int64_t{window.max.y} - window.min.y + 1;
-    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) refuse("a size that no table has");
-    file.width = static_cast<std::size_t>(width);
-    file.height = static_cast<std::size_t>(height);
+    file.width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1);
+    file.height = static_cast<std::size_t>(std::int64_t{window.max.y} - window.min.y + 1);
     bool half = true;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-      if (c.channel().type == imf::UINT || c.channel().xSampling != 1 || c.channel().ySampling != 1)
-        refuse(fmt::format("channel '{}' is not one of numbers at every pixel", c.name()));
       half = half && c.channel().type == imf::HALF;
       file.names.emplace_back(c.name());
     }
-    if (file.names.empty()) refuse("no channels");
     file.precision = half ? Precision::kHalf : Precision::kFloat;
-    const std::size_t count = file.width * file.height;
-    if (count * file.names.size() * 2 / kMaxRatio > bytes.size())
-      refuse("more pixels than its length can hold");
-    file.channels.assign(file.names.size(), std::vector<float>(count));
+    file.channels.assign(file.names.size(), std::vector<float>(file.width * file.height));
     imf::FrameBuffer frame;
     for (std::size_t c = 0; c < file.names.size(); ++c) {
-      // slices are addressed from the origin, which the data window need not hold
-      auto* const first = reinterpret_cast<char*>(file.channels[c].data());
-      const std::ptrdiff_t offset =
-          (std::ptrdiff_t{window.min.y} * width + window.min.x) * static_cast<std::ptrdiff_t>(sizeof(float));
-      frame.insert(file.names[c], imf::Slice(imf::FLOAT, first - offset, sizeof(float),
-                                             sizeof(float) * static_cast<std::size_t>(width)));
+      // slices are addressed from the origin, which the data window need not hold: an address, not a pointer
+      const auto first = reinterpret_cast<std::uintptr_t>(file.channels[c].data());
+      const auto offset =
+          (std::int64_t{window.min.y} * static_cast<std::int64_t>(file.width) + window.min.x) *
+          static_cast<std::int64_t>(sizeof(float));
+      auto* const origin = reinterpret_cast<char*>(first - static_cast<std::uintptr_t>(offset));
+      frame.insert(file.names[c], imf::Slice(imf::FLOAT, origin, sizeof(float), sizeof(float) * file.width));
     }
     input.setFrameBuffer(frame);
     input.readPixels(window.min.y, window.max.y);
@@ -141,12 +269,10 @@ ExrFile parseExr(std::string_view bytes, const std::string& name) {
       if (const auto* text = dynamic_cast<const imf::StringAttribute*>(&a.attribute()))
         file.attributes.emplace_back(a.name(), text->value());
     }
-  } catch (const InputError&) {
-    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    refuse(fmt::format("damaged ({})", error.what()));
+    refuse(name, fmt::format("damaged ({})", error.what()));
   }
   return file;
 }

@@ -25,8 +25,9 @@ std::string channelsToExr(const ExrFile& file);
 
 bool isExr(std::string_view bytes);
 
-/// Reads half and float channels of a single-part scan-line or tiled file whose channels are not subsampled.
-/// InputError with `name` for anything else, damaged data and sizes that the file's length cannot hold.
+/// Reads half and float channels of a single-part scan-line file, uncompressed or of a lossless compression
+/// (RLE, ZIP, PIZ), whose channels are not subsampled. InputError with `name` for anything else, damaged data
+/// and sizes that the file's length cannot hold, before anything of that size is allocated.
 ExrFile parseExr(std::string_view bytes, const std::string& name);
 
 }  // namespace ltcfit

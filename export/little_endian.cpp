@@ -25,7 +25,7 @@ std::vector<float> readValues(std::string_view bytes, Precision precision) {
   const std::size_t size = precision == Precision::kHalf ? 2 : 4;
   std::vector<float> values(bytes.size() / size);
   if (precision == Precision::kFloat) {
-    std::memcpy(values.data(), bytes.data(), values.size() * size);
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * size);
     return values;
   }
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = halfValue(readAt<std::uint16_t>(bytes, 2 * i));

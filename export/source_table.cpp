@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "export/atomic_file.h"
 #include "export/little_endian.h"
@@ -33,9 +35,41 @@ std::optional<Image> squareImage(std::vector<float> values, std::size_t componen
 }
 
 // Whether `text` ends with one of these, in whatever case.
-bool isNamed(std::string name, std::initializer_list<std::string_view> endings) {
+bool isNamed(std::string name, std::span<const std::string_view> endings) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view e) { return name.ends_with(e); });
+}
+
+constexpr std::array<std::string_view, 5> kMatrixNames{"ltc_mat_1", "_matrix", "ltc_mat_ggx", "ltcmat",
+                                                       "ltc1"};
+constexpr std::array<std::string_view, 5> kAmplitudeNames{"ltc_mat_2", "_amplitude", "ltc_mag_ggx", "ltcamp",
+                                                          "ltc2"};
+
+std::size_t countOf(std::string_view text, std::string_view part) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string_view::npos; at += part.size()) ++count;
+  return count;
+}
+
+// Text that lost its end would else be a table without amplitudes, or of axes that only its metadata told.
+void checkNotCutOff(std::string_view text, const std::string& name) {
+  const std::size_t lastLine = text.rfind('\n') + 1;  // 0 where there is one line only
+  const std::size_t comment = text.find("/*", lastLine);
+  if (comment != std::string_view::npos && text.find("*/", comment + 2) == std::string_view::npos)
+    throw InputError(name + ": cut off in a comment");
+  if (countOf(text, "\n#if") > countOf(text, "\n#endif"))
+    throw InputError(name + ": cut off: an #if without its #endif");
+  if (text.find("export const LTC_INFO") != std::string_view::npos)
+    throw InputError(name + ": cut off: no metadata behind LTC_INFO");
+}
+
+// Throws where one of these names is that of an array that broke off.
+void refuseDamaged(const std::vector<std::string>& damaged, std::span<const std::string_view> endings,
+                   const std::string& name) {
+  for (const std::string& array : damaged) {
+    if (isNamed(array, endings))
+      throw InputError(name + ": " + array + ": cut off, or something in it is no number");
+  }
 }
 
 Table anisotropicTable(TextArray& matrices, const std::vector<TextArray>& arrays, const std::string& name) {
@@ -79,26 +113,38 @@ Table describedTable(PackedTable packed, const std::vector<TextArray>& arrays, c
 }  // namespace
 
 std::optional<Table> tableFromSource(std::string_view text, const std::string& name) {
-  std::vector<TextArray> arrays = arraysOfText(text);
-  const std::string metadata = metadataOfSource(text);
-  if (!metadata.empty()) return describedTable(packedFromMetadata(metadata, name), arrays, name);
+  std::vector<std::string> damaged;
+  std::vector<TextArray> arrays = arraysOfText(text, &damaged);
+  const std::optional<std::string> metadata = metadataOfSource(text);
+  if (metadata) return describedTable(packedFromMetadata(*metadata, name), arrays, name);
   for (TextArray& array : arrays) {
-    if (array.shape.size() == 5 && array.shape.back() == 9) return anisotropicTable(array, arrays, name);
+    if (array.shape.size() == 5 && array.shape.back() == 9) {
+      checkNotCutOff(text, name);
+      refuseDamaged(damaged, kAmplitudeNames, name);
+      return anisotropicTable(array, arrays, name);
+    }
   }
+  refuseDamaged(damaged, kMatrixNames, name);
+  refuseDamaged(damaged, kAmplitudeNames, name);
   const TextArray* matrices = nullptr;
   const TextArray* amplitudes = nullptr;
   for (const TextArray& array : arrays) {
-    if (isNamed(array.name, {"ltc_mat_1", "_matrix", "ltc_mat_ggx", "ltcmat", "ltc1"})) matrices = &array;
-    if (isNamed(array.name, {"ltc_mat_2", "_amplitude", "ltc_mag_ggx", "ltcamp", "ltc2"}))
-      amplitudes = &array;
+    if (isNamed(array.name, kMatrixNames)) matrices = &array;
+    if (isNamed(array.name, kAmplitudeNames)) amplitudes = &array;
   }
   if (matrices == nullptr) return std::nullopt;
+  checkNotCutOff(text, name);
   const std::optional<Image> first = squareImage(matrices->values, 4);
   if (!first) {
     throw InputError(fmt::format("{}: {} holds {} numbers, which are no square texture of 4", name,
                                  matrices->name, matrices->values.size()));
   }
-  if (amplitudes == nullptr) return tableFrom2017(*first, nullptr, name);
+  if (amplitudes == nullptr) {
+    // our headers may have matrices only; of the engines' files the second array was lost
+    if (!matrices->name.ends_with("_matrix"))
+      throw InputError(name + ": " + matrices->name + " without the array of norm and Fresnel: cut off?");
+    return tableFrom2017(*first, nullptr, name);
+  }
   const std::size_t components = amplitudes->values.size() / first->texels();
   const std::optional<Image> second =
       squareImage(amplitudes->values, std::clamp<std::size_t>(components, 1, 4));

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 namespace ltcfit {
 namespace {
 
 constexpr std::size_t kMaxDimensions = 8;
+constexpr std::size_t kMaxDimensionLength = 64;  // with its brackets
 
 bool isWord(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$';
@@ -40,9 +42,11 @@ bool readName(std::string_view text, std::size_t equals, TextArray& array) {
   std::size_t end = equals;
   while (end > 0 && isSpace(text[end - 1])) --end;
   while (end > 0 && text[end - 1] == ']') {
-    const std::size_t open = text.substr(0, end).rfind('[');
-    if (open == std::string_view::npos || end - open > 64 || array.shape.size() == kMaxDimensions)
-      return false;
+    // no further back than a dimension is long: every ']' of a hostile text would be searched to the start
+    const std::size_t earliest = end - std::min(end, kMaxDimensionLength);
+    const std::size_t offset = text.substr(earliest, end - earliest).rfind('[');
+    if (offset == std::string_view::npos || array.shape.size() == kMaxDimensions) return false;
+    const std::size_t open = earliest + offset;
     // a named constant instead of a number: 0, not known
     std::size_t dimension = 0;
     const char* const close = text.data() + end - 1;
@@ -75,21 +79,14 @@ bool readNumbers(std::string_view text, std::size_t& at, std::vector<float>& val
     } else {
       // a sign may stand apart: "- 4.5e-07"
       const bool negative = c == '-';
-      const std::size_t start = c == '+' || negative ? skipBlanks(text, at + 1) : at;
-      if (start >= text.size() || text[start] == '-') return false;
+      if (c == '+' || negative) at = skipBlanks(text, at + 1);
+      if (at >= text.size() || text[at] == '-') return false;
       float value = 0.0f;
-      const auto [last, error] = std::from_chars(text.data() + start, text.data() + text.size(), value);
-      if (last == text.data() + start) return false;
-      if (error == std::errc::result_out_of_range) {
-        // too small for a float32 is 0; too large is no table's number
-        const std::string_view token(text.data() + start,
-                                     static_cast<std::size_t>(last - text.data()) - start);
-        if (token.find("e-") == std::string_view::npos && token.find("E-") == std::string_view::npos &&
-            token[0] != '0' && token[0] != '.') {
-          return false;
-        }
-        value = 0.0f;
-      }
+      const auto [last, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
+      if (last == text.data() + at) return false;
+      // too small for a float32 is 0 or subnormal; too large is infinite, and no table's number
+      if (error == std::errc::result_out_of_range)
+        value = std::strtof(std::string(text.data() + at, last).c_str(), nullptr);
       if (!std::isfinite(value)) return false;
       values.push_back(negative ? -value : value);
       at = static_cast<std::size_t>(last - text.data());
@@ -101,12 +98,14 @@ bool readNumbers(std::string_view text, std::size_t& at, std::vector<float>& val
 
 }  // namespace
 
-std::vector<TextArray> arraysOfText(std::string_view text) {
+std::vector<TextArray> arraysOfText(std::string_view text, std::vector<std::string>* damaged) {
   std::vector<TextArray> arrays;
   for (std::size_t at = 0; (at = text.find('=', at)) != std::string_view::npos;) {
     const std::size_t equals = at++;
+    // what is skipped here is not searched again: a comment without end would be, once for each '=' in it
+    at = skipBlanks(text, at);
     // "new Float32Array([" and the like stand between
-    std::size_t open = skipBlanks(text, at);
+    std::size_t open = at;
     while (open < text.size() && open - at < 64 &&
            (isWord(text[open]) || isSpace(text[open]) || text[open] == '('))
       ++open;
@@ -114,7 +113,13 @@ std::vector<TextArray> arraysOfText(std::string_view text) {
     TextArray array;
     if (!readName(text, equals, array)) continue;
     at = open;
-    if (readNumbers(text, at, array.values) && !array.values.empty()) arrays.push_back(std::move(array));
+    const bool whole = readNumbers(text, at, array.values);
+    if (array.values.empty()) continue;
+    if (whole) {
+      arrays.push_back(std::move(array));
+    } else if (damaged != nullptr) {
+      damaged->push_back(std::move(array.name));
+    }
   }
   return arrays;
 }

@@ -16,7 +16,8 @@ struct TextArray {
 };
 
 /// Every `NAME = [..]`, `NAME[n]..[m] = {..}` of numbers in a text, comments inside of it skipped. An
-/// initialiser with anything else in it is left out. Takes any bytes and ends after one pass over them.
-std::vector<TextArray> arraysOfText(std::string_view text);
+/// initialiser with anything else in it is left out; where it began with a number, the name goes to
+/// `damaged`: cut off, or a number that is none any more. Takes any bytes and ends after one pass over them.
+std::vector<TextArray> arraysOfText(std::string_view text, std::vector<std::string>* damaged = nullptr);
 
 }  // namespace ltcfit

@@ -201,9 +201,13 @@ Table tableFromExr(std::string_view bytes, const std::string& name) {
     throw InputError(name + ": an EXR image, but not one of ltcfit's (no attribute 'ltcfit')");
   PackedTable packed = packedFromMetadata(metadata->second, name);
   std::vector<Image> images;
+  std::size_t components = 0;
   try {
     for (std::size_t t = 0; t < packed.packing.textures.size(); ++t) {
       Image image = imageFor(packed, t);
+      // each is read from a channel of its own: a few bytes of names must not ask for an image each
+      components += image.components;
+      if (components > file.names.size()) throw std::invalid_argument("EXR: fewer channels than components");
       const bool volume = image.depth > 1;
       if (file.width != (volume ? image.width * image.height : image.width) ||
           file.height != (volume ? image.depth : image.height) ||

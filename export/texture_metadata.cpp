@@ -14,6 +14,8 @@ namespace {
 
 constexpr const char* kFormat = "ltc-texture";
 constexpr int kVersion = 1;
+// A table has 11 channels at most.
+constexpr std::size_t kMaxTextures = 16;
 constexpr std::string_view kLineStart = "ltcfit-metadata: ";
 
 Json coordinates(const TableInfo& info) {
@@ -62,8 +64,12 @@ PackedTable read(const Json& json) {
     const JsonFields fields(texture, fmt::format("textures[{}]", packed.packing.textures.size()));
     packed.packing.textures.push_back({fields.text("name"), fields.texts("components")});
   }
+  if (packed.packing.textures.size() > kMaxTextures)
+    throw InputError(fmt::format("textures: more than {}", kMaxTextures));
   if (file.has("files")) {
     packed.files = file.texts("files");
+    if (packed.files.size() > kMaxTextures)
+      throw InputError(fmt::format("files: more than {}", kMaxTextures));
     for (const std::string& name : packed.files) {
       if (name.empty() || name.find_first_of("/\\") != std::string::npos)
         throw InputError("files: '" + name + "' is not the name of a file in the same folder");
@@ -137,9 +143,9 @@ std::string metadataLine(const PackedTable& packed, const std::string& container
   return line;
 }
 
-std::string metadataOfSource(std::string_view text) {
+std::optional<std::string> metadataOfSource(std::string_view text) {
   const std::size_t at = text.rfind(kLineStart);
-  if (at == std::string_view::npos) return {};
+  if (at == std::string_view::npos) return std::nullopt;
   const std::size_t start = at + kLineStart.size();
   const std::string_view line = text.substr(start, text.find('\n', start) - start);
   const std::size_t end = line.rfind('}');

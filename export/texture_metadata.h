@@ -1,6 +1,7 @@
 // What a texture's numbers mean, as text: in the file where its format has a place, else beside it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,9 @@ std::string textureMetadata(const PackedTable& packed, const std::string& contai
 /// JavaScript.
 std::string metadataLine(const PackedTable& packed, const std::string& container);
 
-/// The JSON of that line, wherever it is in a text; empty where there is none.
-std::string metadataOfSource(std::string_view text);
+/// The JSON of that line, wherever it is in a text; nothing where there is no such line, and no JSON where it
+/// is cut off.
+std::optional<std::string> metadataOfSource(std::string_view text);
 
 /// Lines that tell a reader of source code what the arrays hold: origin, matrix, components, coordinates,
 /// nodes. None ends a comment.
