@@ -17,6 +17,7 @@ namespace ltcfit::app {
 namespace {
 
 constexpr const char* kAllProfiles = "all";
+constexpr int kWorstNodes = 10;
 
 struct ExportArguments {
   std::string input;
@@ -27,10 +28,10 @@ struct ExportArguments {
   std::string precision = "float";
   std::string ddsHeader;
   std::string prefix;
-  int report = 0;
   bool uncompressed = false;
   bool resample = false;
   bool list = false;
+  bool report = false;
   bool quiet = false;
 };
 
@@ -93,7 +94,7 @@ int exportProfiles(const ExportArguments& a, const Table& table) {
       const ExportResult result = exportProfile(table, profile, a.resample, std::string(profile.files[0]));
       makeFolder(folder);
       writeFiles(a, folder, result);
-      if (!a.quiet) printHalfSummary(table, result.half, a.report);
+      if (!a.quiet) printHalfSummary(table, result.half, a.report ? kWorstNodes : 0);
     }
     return kExitOk;
   }
@@ -107,7 +108,7 @@ int exportProfiles(const ExportArguments& a, const Table& table) {
       exportProfile(table, *profile, a.resample, folder ? std::string() : path.filename().string());
   if (folder) makeFolder(a.output);
   writeFiles(a, folder ? a.output : path.parent_path().string(), result);
-  if (!a.quiet) printHalfSummary(table, result.half, a.report);
+  if (!a.quiet) printHalfSummary(table, result.half, a.report ? kWorstNodes : 0);
   return kExitOk;
 }
 
@@ -140,7 +141,7 @@ int exportFormat(const ExportArguments& a, const Table& table) {
   const std::filesystem::path path(a.output);
   const ExportResult result = exportTable(table, format, options, path.filename().string());
   writeFiles(a, path.parent_path().string(), result);
-  if (!a.quiet) printHalfSummary(table, result.half, a.report);
+  if (!a.quiet) printHalfSummary(table, result.half, a.report ? kWorstNodes : 0);
   return kExitOk;
 }
 
@@ -214,12 +215,8 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
           "--prefix", a->prefix,
           "Start of the names in source files [the output's file name; anisomats for an anisotropic header]")
       ->type_name("NAME");
-  command
-      ->add_option("--report", a->report,
-                   "Print so many of the nodes that half precision changes most, 0..1000")
-      ->check(CLI::Range(0, 1000))
-      ->expected(0, 1)
-      ->default_str("10");
+  command->add_flag("--report", a->report,
+                    "Print the nodes that half precision changes most, with their errors");
   command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors and warnings");
   command->callback([a, &status] { status.exitCode = runExport(*a); });
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <set>
 
 #include "fit/target_lobe.h"
 #include "report/metrics.h"
@@ -47,10 +49,15 @@ void printHalfSummary(const Table& table, const HalfReport& report, int worst) {
   std::vector<HalfNode> nodes = report.nodes;
   std::stable_sort(nodes.begin(), nodes.end(),
                    [](const HalfNode& a, const HalfNode& b) { return a.shift > b.shift; });
-  nodes.resize(std::min(nodes.size(), static_cast<std::size_t>(worst)));
   fmt::print("  {:>10} {:>10} {:>9} {:>9} {:>12} {:>10} {:>11} {:>11}\n", "alpha_x", "alpha_y", "theta deg",
              "phi deg", "shift rad", "det err %", "SW1 float", "SW1 half");
-  for (const HalfNode& node : nodes) printNode(table, node);
+  // the same lobe stands at several nodes: at alpha 0 for every lambda
+  std::set<std::array<double, 4>> seen;
+  for (const HalfNode& node : nodes) {
+    if (seen.size() == static_cast<std::size_t>(worst)) break;
+    const LobeParameters p = table.parameters(table.node(node.node));
+    if (seen.insert({p.alphaX, p.alphaY, p.theta, p.phi}).second) printNode(table, node);
+  }
 }
 
 }  // namespace ltcfit::app

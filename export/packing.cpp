@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -87,14 +88,16 @@ std::vector<Eigen::Matrix3d> packedMatrices(const Table& table, const Packing& p
   // as they are where they are so already: dividing twice moves last bits
   const bool asIs = packing.stores == info.stores &&
                     (packing.divisor == Divisor::kNone || packing.divisor == divisorOf(info.normalization));
+  const std::optional<std::size_t> divisor = divisorIndex(packing.divisor);
   std::vector<Eigen::Matrix3d> out;
   out.reserve(table.nodeCount());
   for (std::size_t i = 0; i < table.nodeCount(); ++i) {
     const TableEntry entry = table.entry(table.node(i));
     try {
       if (!entry.invertible) fail("has no inverse");
-      const Eigen::Matrix3d exact =
-          asIs ? (packing.stores == MatrixStorage::kM ? entry.m : entry.mInv) : divided(entry, packing);
+      const Eigen::Matrix3d& m = packing.stores == MatrixStorage::kM ? entry.m : entry.mInv;
+      const bool keep = asIs && (!divisor || m.diagonal()[static_cast<Eigen::Index>(*divisor / 3)] == 1.0);
+      const Eigen::Matrix3d exact = keep ? m : divided(entry, packing);
       const Eigen::Matrix3f rounded = exact.cast<float>();
       if (!rounded.allFinite()) fail("has a matrix that does not fit float32");
       out.push_back(rounded.cast<double>());
@@ -138,25 +141,37 @@ void roundMatrices(std::vector<Eigen::Matrix3d>& matrices, const std::array<bool
   std::array<bool, 9> free = placed;
   if (fixed) free[*fixed] = false;
   if (!fixed) packed.scale = halfScale(matrices);
-  packed.half.nodes.resize(matrices.size());
-  std::vector<std::string> errors(matrices.size());
-#pragma omp parallel for schedule(dynamic, 16)
+  // tables hold equal matrices (at alpha 0 for every lambda), and some take long
+  std::map<std::vector<double>, std::size_t> firstOf;
+  std::vector<std::size_t> source(matrices.size());
+  std::vector<std::size_t> different;
   for (std::size_t i = 0; i < matrices.size(); ++i) {
+    const auto [found, isNew] = firstOf.try_emplace({matrices[i].data(), matrices[i].data() + 9}, i);
+    source[i] = found->second;
+    if (isNew) different.push_back(i);
+  }
+  std::vector<HalfRounding> roundings(matrices.size());
+  std::vector<std::string> errors(matrices.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t k = 0; k < different.size(); ++k) {
+    const std::size_t i = different[k];
     try {
-      const HalfRounding rounding = roundToHalf(packed.scale * matrices[i], packed.packing.stores, free);
-      matrices[i] = rounding.matrix;
-      const Eigen::Matrix3d m =
-          packed.packing.stores == MatrixStorage::kM ? rounding.matrix : rounding.matrix.inverse().eval();
-      packed.half.nodes[i] = {i, rounding.shift, rounding.detError, rounding.constrained, rounding.moved, m};
+      roundings[i] = roundToHalf(packed.scale * matrices[i], packed.packing.stores, free);
     } catch (const std::invalid_argument& error) {
       errors[i] = "node " + std::to_string(i) + " " + error.what();
     }
   }
   for (const std::string& error : errors)
     if (!error.empty()) fail(error);
-  for (const HalfNode& node : packed.half.nodes) {
-    packed.half.moved += node.moved ? 1 : 0;
-    packed.half.constrained += node.constrained ? 1 : 0;
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    const HalfRounding& rounding = roundings[source[i]];
+    matrices[i] = rounding.matrix;
+    const Eigen::Matrix3d m =
+        packed.packing.stores == MatrixStorage::kM ? rounding.matrix : rounding.matrix.inverse().eval();
+    packed.half.nodes.push_back(
+        {i, rounding.shift, rounding.detError, rounding.constrained, rounding.moved, m});
+    packed.half.moved += rounding.moved ? 1 : 0;
+    packed.half.constrained += rounding.constrained ? 1 : 0;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -34,9 +35,6 @@
 #include "export/texture_metadata.h"
 #include "ggx/random.h"
 #include "tests/support/small_table.h"
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
-#endif
 
 namespace {
 // The largest block asked for since it was last set to 0, by whomever: new, malloc, zstd, OpenEXR.
@@ -49,8 +47,11 @@ void note(std::size_t size) {
 }  // namespace
 
 #ifdef __SANITIZE_ADDRESS__
+// of sanitizer/allocator_interface.h, which g++ does not bring
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
+                                                         void (*)(const volatile void*));
 namespace {
-const int hookInstalled = __sanitizer_install_malloc_and_free_hooks(
+[[maybe_unused]] const int hookInstalled = __sanitizer_install_malloc_and_free_hooks(
     [](const volatile void*, std::size_t size) { note(size); }, [](const volatile void*) {});
 }
 #else
@@ -59,6 +60,7 @@ extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
 void* malloc(std::size_t size) {
   note(size);
   return __libc_malloc(size);
@@ -70,6 +72,14 @@ void* calloc(std::size_t count, std::size_t size) {
 void* realloc(void* old, std::size_t size) {
   note(size);
   return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  note(size);
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
+  *out = aligned_alloc(alignment, size);
+  return *out == nullptr ? ENOMEM : 0;
 }
 }
 #endif
@@ -420,6 +430,45 @@ TEST(RobustnessOf, ExrComponentsBeyondItsChannels) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("fewer channels"), std::string::npos) << error.what();
   }
+}
+
+TEST(RobustnessOf, ExrHeadersThatMislead) {
+  // each would have OpenEXR allocate by a number from the middle of the file, or decode what no table is
+  const std::string good = exportTable(isotropicTable(), *findFormat("exr"), {}, "t").files[0].bytes;
+  const auto with = [&](std::string_view attribute) { return std::string(good).insert(8, attribute); };
+  const auto changed = [&](std::size_t at, char value) {
+    std::string bytes = good;
+    bytes[at] = value;
+    return bytes;
+  };
+  using namespace std::string_literals;
+  const auto reachesOpenExr = [](const std::string& bytes) {
+    try {
+      parseExr(bytes, "T");
+    } catch (const InputError& error) {
+      return std::string(error.what()).find("damaged") != std::string::npos;
+    }
+    return true;
+  };
+  // a sound attribute passes, and OpenEXR then misses the blocks, which have moved
+  EXPECT_TRUE(reachesOpenExr(with("x\0int\0\4\0\0\0\0\0\0\0"s)));
+  std::size_t count = 0;
+  for (const std::string& bytes :
+       {with("x\0int\0\5\0\0\0\0\0\0\0\0"s), with("x\0string\0\377\377\377\177"s),
+        with("x\0idmanifest\0\4\0\0\0\377\377\377\177"s), with("x\0chlist\0\1\0\0\0\0"s),
+        with("channels\0chlist\0\1\0\0\0a"s), with("type\0string\0\4\0\0\0deep"s), changed(5, 2 /* tiled */),
+        changed(5, 16 /* multi-part */),
+        changed(good.find("compression\0compression\0"s) + 28, 8 /* DWAA */)}) {
+    EXPECT_FALSE(reachesOpenExr(bytes)) << count;
+    ++count;
+  }
+}
+
+TEST(RobustnessOf, TexturesAreFew) {
+  std::string metadata = exportTable(isotropicTable(), *findFormat("bin"), {}, "t").files[1].bytes;
+  const std::size_t at = metadata.find("\"textures\": [") + 13;
+  for (int i = 0; i < 15; ++i) metadata.insert(at, R"({"name": "a", "components": ["m00"]},)");
+  EXPECT_THROW(packedFromMetadata(metadata, "T"), InputError);
 }
 
 TEST(RobustnessOf, SourceThatLostAnArrayIsRefused) {

@@ -24,8 +24,9 @@ TEST(TextArrays, ReadsCAndJavaScript) {
 }
 
 TEST(TextArrays, LeavesOutWhatIsNoArrayOfNumbers) {
-  for (const char* text : {"a = {1, x}", "a = {1, 2", "a = {}", "a = [1, nan]", "a = [1, inf]", "= [1]",
-                           "a = {\"1\"}", "a = {1e999}", "a = {1 2x}", "a = {--1}", "a = {-", "a = [", "a =", "=", ""}) {
+  for (const char* text :
+       {"a = {1, x}", "a = {1, 2", "a = {}", "a = [1, nan]", "a = [1, inf]", "= [1]", "a = {\"1\"}",
+        "a = {1e999}", "a = {1 2x}", "a = {--1}", "a = {-", "a = [", "a =", "=", ""}) {
     const std::vector<TextArray> arrays = arraysOfText(text);
     EXPECT_TRUE(arrays.empty()) << text;
   }
