@@ -1,6 +1,7 @@
 // ltcfit compare: how two tables differ.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/compare.h"
 
@@ -44,6 +46,8 @@ void printJson(const CompareArguments& a, const TableDifference& d) {
   for (const ChannelDifference& c : d.channels)
     out["channels"][c.channel] = {{"different", c.different}, {"largest", c.largest}};
   out["sw1"] = toJson(d.sw1);
+  out["sw1_between"] = toJson(d.between);
+  out["only_in_one"] = d.oneSided;
   if (d.norm.count > 0) out["norm"] = toJson(d.norm);
   if (d.fresnel.count > 0) out["fresnel"] = toJson(d.fresnel);
   out["singular"] = d.singular;
@@ -71,6 +75,7 @@ void printText(const CompareArguments& a, const Table& first, const Table& secon
                s.max);
   };
   line("SW1", d.sw1);
+  line("  between", d.between);
   line("norm", d.norm);
   line("fresnel", d.fresnel);
   if (d.sw1.count > 0 && d.sw1.max > 0.0) {
@@ -78,10 +83,13 @@ void printText(const CompareArguments& a, const Table& first, const Table& secon
     fmt::print("largest SW1 at alpha_x {:.6g}, alpha_y {:.6g}, theta {:.2f} deg, phi {:.2f} deg\n", p.alphaX,
                p.alphaY, p.theta * kDegrees, p.phi * kDegrees);
   }
+  for (const std::string& channel : d.oneSided)
+    fmt::print("only one of the two has the channel {}\n", channel);
   if (d.singular > 0) fmt::print("{} nodes have no inverse in one of the two\n", d.singular);
 }
 
 int compare(const CompareArguments& a) {
+  if (a.tolerance && !std::isfinite(*a.tolerance)) throw InputError("--tolerance must be a number in 0..2");
   const Table first = readTable(a.first);
   const Table second = readTable(a.second);
   const TableDifference difference = compareTables(first, second);
@@ -91,7 +99,8 @@ int compare(const CompareArguments& a) {
     printText(a, first, second, difference);
   }
   if (!a.tolerance) return kExitOk;
-  const bool within = difference.singular == 0 && difference.sw1.max <= *a.tolerance &&
+  const bool within = difference.singular == 0 && difference.oneSided.empty() &&
+                      difference.sw1.max <= *a.tolerance && difference.between.max <= *a.tolerance &&
                       (difference.norm.count == 0 || difference.norm.max <= *a.tolerance) &&
                       (difference.fresnel.count == 0 || difference.fresnel.max <= *a.tolerance);
   if (!within) fmt::print(stderr, "ltcfit: the tables differ by more than {}\n", *a.tolerance);
@@ -110,7 +119,7 @@ void addCompareCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("B", a->second, "The other one")->required()->type_name("FILE");
   command
       ->add_option("--tolerance", a->tolerance,
-                   "Exit 3 where SW1, norm or Fresnel differ by more at any node; 0..2")
+                   "Exit 3 where SW1 (at nodes and between them), norm or Fresnel differ by more; 0..2")
       ->check(CLI::Range(0.0, 2.0));
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &status] { status.exitCode = compare(*a); });

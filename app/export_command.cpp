@@ -1,6 +1,9 @@
 // ltcfit export: a table in the form a program reads.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -56,74 +59,112 @@ void makeFolder(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return;
   if (std::filesystem::exists(path, error))
-    throw InputError(path + ": is a file; this profile has several files and needs a folder");
-  if (!std::filesystem::create_directory(path, error) || error)
+    throw InputError(path + ": is a file; several files are to be written, which need a folder");
+  // another run may make it at the same moment
+  if (!std::filesystem::create_directory(path, error) && !std::filesystem::is_directory(path))
     throw InputError(fmt::format("{}: cannot make this folder ({})", path, error.message()));
 }
 
-// The files of one export, beside each other.
-void writeFiles(const ExportArguments& a, const std::string& folder, const ExportResult& result) {
+// One export, and where its files go.
+struct Written {
+  std::string folder;  // empty: beside the current one, names as they are
+  ExportResult result;
   std::vector<std::string> paths;
-  for (const ExportFile& file : result.files) {
-    // a name alone stays a name: no "./"
-    paths.push_back(folder.empty() ? file.name : (std::filesystem::path(folder) / file.name).string());
-    if (isSameFile(paths.back(), a.input))
-      throw InputError(a.input + ": --output would overwrite this table");
+};
+
+// Paths of the files, after a look at whether all of them can be written and none is read from.
+void placeFiles(const ExportArguments& a, Written& w) {
+  for (const ExportFile& file : w.result.files) {
+    const std::string path =
+        w.folder.empty() ? file.name : (std::filesystem::path(w.folder) / file.name).string();
+    if (!w.paths.empty() && isStream(w.paths[0])) break;  // descriptions cannot lie beside a stream
+    checkWritable(path);
+    for (const std::string& input : filesOfTable(a.input)) {
+      if (isSameFile(path, input))
+        throw InputError(fmt::format("{}: --output would overwrite this {}", input,
+                                     input == a.input ? "table" : "part of the table"));
+    }
+    w.paths.push_back(path);
   }
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const bool sidecar = i > 0 && result.files[i].name.ends_with(".json");
-    if (sidecar && isStream(paths[0])) continue;
-    if (i > 0) checkWritable(paths[i]);
-    writeFileAtomically(paths[i], result.files[i].bytes);
-    if (!a.quiet) fmt::print("wrote {} ({} bytes)\n", paths[i], result.files[i].bytes.size());
-  }
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "ltcfit: warning: {}\n", warning);
 }
 
-int exportProfiles(const ExportArguments& a, const Table& table) {
-  if (a.profile == kAllProfiles) {
-    makeFolder(a.output);
-    for (const Profile& profile : profiles()) {
-      const bool fits = fitsProfile(table, profile);
-      if (!fits && !(a.resample && table.isIsotropic() == profile.axes.isotropic)) {
-        if (!a.quiet)
-          fmt::print("left out {}: needs another table, `{}`\n", profile.name, fitCommand(profile));
-        continue;
-      }
-      const std::string folder = (std::filesystem::path(a.output) / profile.name).string();
-      const ExportResult result = exportProfile(table, profile, a.resample, std::string(profile.files[0]));
-      makeFolder(folder);
-      writeFiles(a, folder, result);
-      if (!a.quiet) printHalfSummary(table, result.half, a.report ? kWorstNodes : 0);
-    }
-    return kExitOk;
+void writeFiles(const ExportArguments& a, const Table& table, const Written& w) {
+  // what goes to a stream is not mixed with notes
+  std::FILE* const notes = isStream(w.paths[0]) ? stderr : stdout;
+  for (std::size_t i = 0; i < w.paths.size(); ++i) {
+    writeFileAtomically(w.paths[i], w.result.files[i].bytes);
+    if (!a.quiet) fmt::print(notes, "wrote {} ({} bytes)\n", w.paths[i], w.result.files[i].bytes.size());
   }
-  const Profile* const profile = findProfile(a.profile);
-  if (profile == nullptr)
-    throw InputError("--profile " + a.profile + ": not known; `ltcfit export --list` shows all");
-  const bool folder = profile->files.size() > 1;
-  if (!folder) checkWritable(a.output);
-  const std::filesystem::path path(a.output);
-  const ExportResult result =
-      exportProfile(table, *profile, a.resample, folder ? std::string() : path.filename().string());
-  if (folder) makeFolder(a.output);
-  writeFiles(a, folder ? a.output : path.parent_path().string(), result);
-  if (!a.quiet) printHalfSummary(table, result.half, a.report ? kWorstNodes : 0);
+  for (const std::string& warning : w.result.warnings) fmt::print(stderr, "ltcfit: warning: {}\n", warning);
+  if (!a.quiet)
+    printHalfSummary(notes, w.result.table.value_or(table), w.result.half, a.report ? kWorstNodes : 0);
+}
+
+int exportAllProfiles(const ExportArguments& a, const Table& table) {
+  std::vector<Written> all;
+  std::vector<std::string> folders;
+  for (const Profile& profile : profiles()) {
+    const bool fits = fitsProfile(table, profile);
+    const bool canFit = a.resample && table.isIsotropic() == profile.axes.isotropic;
+    std::string why = fmt::format("needs another table, `{}`", fitCommand(profile));
+    if (fits || canFit) {
+      try {
+        Written w{(std::filesystem::path(a.output) / profile.name).string(),
+                  exportProfile(table, profile, a.resample, std::string(profile.files[0])),
+                  {}};
+        all.push_back(std::move(w));
+        continue;
+      } catch (const std::invalid_argument& error) {
+        why = error.what();
+      }
+    }
+    if (!a.quiet) fmt::print("left out {}: {}\n", profile.name, why);
+  }
+  if (all.empty()) throw InputError(a.input + ": fits none of the profiles");
+  makeFolder(a.output);
+  for (Written& w : all) {
+    makeFolder(w.folder);
+    placeFiles(a, w);
+  }
+  for (const Written& w : all) writeFiles(a, table, w);
   return kExitOk;
 }
 
-const FormatInfo& formatOf(const ExportArguments& a) {
-  // by the name where nothing is said
-  std::string name = a.format;
-  const std::string extension = std::filesystem::path(a.output).extension().string();
-  for (const FormatInfo& format : formats()) {
-    if (name.empty() && format.extension == extension) name = format.name;
+int exportProfiles(const ExportArguments& a, const Table& table) {
+  if (a.profile == kAllProfiles) return exportAllProfiles(a, table);
+  const Profile* const profile = findProfile(a.profile);
+  if (profile == nullptr) {
+    std::vector<std::string_view> names;
+    for (const Profile& p : profiles()) names.push_back(p.name);
+    throw InputError(fmt::format("--profile {}: not known; there are {}, {}", a.profile,
+                                 fmt::join(names, ", "), kAllProfiles));
   }
-  if (name.empty()) name = "h";
-  const FormatInfo* const format = findFormat(name);
-  if (format == nullptr)
-    throw InputError("--format " + name + ": not known; `ltcfit export --list` shows all");
-  return *format;
+  const bool folder = profile->files.size() > 1;
+  const std::filesystem::path path(a.output);
+  Written w{folder ? a.output : path.parent_path().string(),
+            exportProfile(table, *profile, a.resample, folder ? std::string() : path.filename().string()),
+            {}};
+  if (folder) makeFolder(a.output);
+  placeFiles(a, w);
+  writeFiles(a, table, w);
+  return kExitOk;
+}
+
+// By the name where nothing is said; a name without an extension is a header's.
+const FormatInfo& formatOf(const ExportArguments& a) {
+  std::string extension = std::filesystem::path(a.output).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension.empty()) extension = ".h";
+  std::vector<std::string_view> names;
+  for (const FormatInfo& format : formats()) {
+    names.push_back(format.name);
+    if (a.format.empty() ? format.extension == extension : format.name == a.format) return format;
+  }
+  throw InputError(
+      a.format.empty()
+          ? fmt::format("{}: what format? --format takes {}", a.output, fmt::join(names, ", "))
+          : fmt::format("--format {}: not known; there are {}", a.format, fmt::join(names, ", ")));
 }
 
 int exportFormat(const ExportArguments& a, const Table& table) {
@@ -138,10 +179,11 @@ int exportFormat(const ExportArguments& a, const Table& table) {
   if (a.uncompressed) options.ktx2Compression = Ktx2Compression::kNone;
   if (!a.ddsHeader.empty() && format.name != "dds") throw InputError("--dds-header is for --format dds");
   if (a.uncompressed && format.name != "ktx2") throw InputError("--uncompressed is for --format ktx2");
+  if (a.report && options.precision != Precision::kHalf) throw InputError("--report needs --precision half");
   const std::filesystem::path path(a.output);
-  const ExportResult result = exportTable(table, format, options, path.filename().string());
-  writeFiles(a, path.parent_path().string(), result);
-  if (!a.quiet) printHalfSummary(table, result.half, a.report ? kWorstNodes : 0);
+  Written w{path.parent_path().string(), exportTable(table, format, options, path.filename().string()), {}};
+  placeFiles(a, w);
+  writeFiles(a, table, w);
   return kExitOk;
 }
 
@@ -160,7 +202,6 @@ int runExport(const ExportArguments& a) {
   } else {
     if (a.resample) throw InputError("--resample needs --profile");
     checkWritable(a.output);
-    if (isSameFile(a.output, a.input)) throw InputError(a.input + ": --output would overwrite this table");
   }
   const Table table = readTable(a.input);
   try {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -16,47 +17,44 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // SW1 of the lobe's LTC in float32 and in halves.
-void printNode(const Table& table, const HalfNode& node) {
+void printNode(std::FILE* out, const Table& table, const HalfNode& node) {
   const LobeParameters p = table.parameters(table.node(node.node));
   MetricOptions options;
   options.quads = 1;
   options.lights = 1;
   const std::unique_ptr<Lobe> lobe = makeTargetLobe(table.info().brdf, p);
   const MetricTarget target(*lobe, options);
-  fmt::print("  {:>10.6g} {:>10.6g} {:>9.4f} {:>9.4f} {:>12.2e} {:>10.4f} {:>11.3e} {:>11.3e}{}\n", p.alphaX,
-             p.alphaY, p.theta * kDegrees, p.phi * kDegrees, node.shift, 100.0 * node.detError,
+  fmt::print(out, "  {:>10.6g} {:>10.6g} {:>9.4f} {:>9.4f} {:>12.2e} {:>10.4f} {:>11.3e} {:>11.3e}{}\n",
+             p.alphaX, p.alphaY, p.theta * kDegrees, p.phi * kDegrees, node.shift, 100.0 * node.detError,
              target.sw1(Ltc(table.entry(table.node(node.node)).m)), target.sw1(Ltc(node.m)),
              node.constrained ? "  bounded" : "");
 }
 
 }  // namespace
 
-void printHalfSummary(const Table& table, const HalfReport& report, int worst) {
+void printHalfSummary(std::FILE* out, const Table& table, const HalfReport& report, int worst) {
   if (report.nodes.empty()) return;
-  double shift = 0.0;
-  double detError = 0.0;
-  for (const HalfNode& node : report.nodes) {
-    shift = std::max(shift, node.shift);
-    detError = std::max(detError, node.detError);
-  }
   fmt::print(
-      "half: at {} of {} nodes not the nearest halves, at {} bounded (normal diagonal, determinant); "
-      "largest lobe shift {:.2e} rad, determinant error {:.2f} %\n",
-      report.moved, report.nodes.size(), report.constrained, shift, 100.0 * detError);
+      out,
+      "half: at {} of {} nodes not the nearest halves, at {} bounded (normal diagonal, determinant); largest "
+      "lobe "
+      "shift {:.2e} rad,\n      determinant error {:.2f} % from alpha {:.4g} (roughness {:.3f}) on",
+      report.moved, report.nodes.size(), report.constrained, report.largestShift,
+      100.0 * report.largestDetError, report.alphaFloor, std::sqrt(report.alphaFloor));
+  if (report.beyond > 0) fmt::print(out, ", above 1 % at {} sharper nodes", report.beyond);
+  fmt::print(out, "\n");
   if (worst <= 0) return;
-  // nodes of a resampled table have no parameters in the one given
-  if (report.nodes.size() != table.nodeCount()) return;
   std::vector<HalfNode> nodes = report.nodes;
   std::stable_sort(nodes.begin(), nodes.end(),
                    [](const HalfNode& a, const HalfNode& b) { return a.shift > b.shift; });
-  fmt::print("  {:>10} {:>10} {:>9} {:>9} {:>12} {:>10} {:>11} {:>11}\n", "alpha_x", "alpha_y", "theta deg",
-             "phi deg", "shift rad", "det err %", "SW1 float", "SW1 half");
+  fmt::print(out, "  {:>10} {:>10} {:>9} {:>9} {:>12} {:>10} {:>11} {:>11}\n", "alpha_x", "alpha_y",
+             "theta deg", "phi deg", "shift rad", "det err %", "SW1 float", "SW1 half");
   // the same lobe stands at several nodes: at alpha 0 for every lambda
   std::set<std::array<double, 4>> seen;
   for (const HalfNode& node : nodes) {
     if (seen.size() == static_cast<std::size_t>(worst)) break;
     const LobeParameters p = table.parameters(table.node(node.node));
-    if (seen.insert({p.alphaX, p.alphaY, p.theta, p.phi}).second) printNode(table, node);
+    if (seen.insert({p.alphaX, p.alphaY, p.theta, p.phi}).second) printNode(out, table, node);
   }
 }
 

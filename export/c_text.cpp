@@ -10,8 +10,15 @@ namespace ltcfit {
 
 std::string identifier(const std::string& text) {
   std::string out;
-  for (char c : text) out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  if (out.empty() || std::isalpha(static_cast<unsigned char>(out[0])) == 0) out.insert(0, "ltc_");
+  for (char c : text) {
+    const char good = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    // two in a row are reserved in C++ and GLSL
+    if (good != '_' || !out.ends_with('_')) out += good;
+  }
+  const bool reserved = out.starts_with("gl_") || out.starts_with("GL_");
+  if (out.empty() || reserved || std::isalpha(static_cast<unsigned char>(out[0])) == 0)
+    out.insert(0, out.starts_with('_') ? "ltc" : "ltc_");
+  if (out.ends_with('_')) out.pop_back();
   return out;
 }
 

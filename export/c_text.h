@@ -8,7 +8,8 @@
 
 namespace ltcfit {
 
-/// Part of a C identifier: every character that cannot be in one is turned into '_'; starts with a letter.
+/// Part of a C or GLSL identifier: characters that cannot be in one are turned into '_', runs of it into one;
+/// starts with a letter, not with gl_.
 std::string identifier(const std::string& text);
 std::string upper(std::string text);
 /// Text of a file inside a comment: it neither ends it nor breaks its lines.

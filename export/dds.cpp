@@ -25,7 +25,8 @@ constexpr std::uint32_t kFourCc = 0x4;                                  // DDPF_
 constexpr std::uint32_t kComplex = 0x8, kTexture = 0x1000;              // DDSCAPS_
 constexpr std::uint32_t kCubeMap = 0x200 | 0xFC00, kVolume = 0x200000;  // DDSCAPS2_
 constexpr std::uint32_t kTexture2d = 3, kTexture3d = 4;                 // D3D10_RESOURCE_DIMENSION_
-constexpr std::size_t kMaxSide = 16384;                                 // of Direct3D 11
+constexpr std::size_t kMaxSide = 16384;                                 // of Direct3D 11, 2D
+constexpr std::size_t kMaxSlices = 2048;                                // of volumes and arrays there, 2D
 
 struct Format {
   std::uint32_t fourCc;  // D3DFMT
@@ -49,6 +50,10 @@ std::string imageToDds(const Image& image, DdsHeader header) {
   if (image.layers > 1 && (image.depth > 1 || header == DdsHeader::kLegacy))
     throw std::invalid_argument("DDS: this header has no place for an array of textures");
   const bool volume = image.depth > 1;
+  if (image.width > kMaxSide || image.height > kMaxSide || image.depth > kMaxSlices ||
+      image.layers > kMaxSlices)
+    throw std::invalid_argument(fmt::format("DDS: {} x {} x {} texels are more than Direct3D takes",
+                                            image.width, image.height, image.depth));
   const auto u32 = [](std::size_t v) { return static_cast<std::uint32_t>(v); };
 
   std::string out(kMagic);

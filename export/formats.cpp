@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "export/anisotropic_c_header.h"
@@ -22,6 +25,38 @@ bool isTextureContainer(std::string_view format) {
 Packing packingFor(const Table& table, std::string_view format, Layout layout) {
   if (layout == Layout::kPacked) return table.isIsotropic() ? packing2017() : packingOfRows();
   return packingOfChannels(table.info(), isTextureContainer(format) ? 4 : table.channelCount());
+}
+
+// What the shaders that we ship (render/shaders) take for granted about the nodes.
+bool isForOurShaders(const Table& table) {
+  constexpr double kHalfPi = 0.5 * std::numbers::pi;
+  const auto is = [&](std::size_t a, AxisMap map, double high) {
+    const Axis& axis = table.info().axes[a];
+    return axis.map == map && std::abs(axis.low) < 1e-9 && std::abs(axis.high - high) < 1e-6;
+  };
+  if (table.isIsotropic()) return is(0, AxisMap::kSqrtOneMinusCos, kHalfPi) && is(1, AxisMap::kSqrt, 1.0);
+  return is(0, AxisMap::kLinear, 1.0) && is(1, AxisMap::kLinear, 1.0) && is(2, AxisMap::kLinear, kHalfPi) &&
+         is(3, AxisMap::kLinear, kHalfPi);
+}
+
+// Depth that every WebGL 2 and OpenGL ES 3 device has for volumes.
+constexpr std::size_t kSafeDepth = 256;
+
+void addWarnings(const Table& table, const FormatInfo& format, const FormatOptions& options,
+                 ExportResult& result) {
+  const bool packed = options.layout == Layout::kPacked && format.name != "json";
+  if (packed && !isForOurShaders(table)) {
+    result.warnings.push_back(table.isIsotropic() ? "ltc.glsl and ltc.hlsl look up sqrt(alpha) and sqrt(1 - "
+                                                    "N.V); this table has other axes (its description "
+                                                    "says which)"
+                                                  : "ltc.glsl and ltc.hlsl look up alpha, lambda, theta and "
+                                                    "phi linearly; this table has other axes (its "
+                                                    "description says which)");
+  }
+  const std::size_t depth = 3 * table.info().axes[0].size() * table.info().axes[1].size();
+  if (packed && !table.isIsotropic() && depth > kSafeDepth && (format.name == "dds" || format.name == "ktx2"))
+    result.warnings.push_back(
+        fmt::format("the volume is {} slices deep; WebGL 2 and OpenGL ES 3 promise {}", depth, kSafeDepth));
 }
 
 std::string standardPrefix(const Table& table, std::string_view format, const std::string& name) {
@@ -69,6 +104,7 @@ ExportResult exportTable(const Table& table, const FormatInfo& format, const For
   const std::string prefix =
       options.prefix.empty() ? standardPrefix(table, format.name, name) : options.prefix;
   ExportResult result;
+  addWarnings(table, format, options, result);
   if (format.name == "json") {
     result.files = {{name, tableToJson(table)}};
     return result;
@@ -94,10 +130,13 @@ ExportResult exportTable(const Table& table, const FormatInfo& format, const For
     result.files = toExrFiles(packed, name);
   } else if (format.name == "npy") {
     result.files = toNpyFiles(packed, name);
-  } else {
+  } else if (format.name == "bin") {
     result.files = toRawFiles(packed, name);
+  } else {
+    throw std::logic_error("format without a writer");
   }
   result.half = std::move(packed.half);
+  if (std::optional<std::string> warning = warningOf(result.half)) result.warnings.push_back(*warning);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // Every format that `ltcfit export --format` knows.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,7 @@ struct ExportResult {
   std::vector<ExportFile> files;
   std::vector<std::string> warnings;
   HalfReport half;
+  std::optional<Table> table;  ///< what was packed, where that is not the table given (resampled)
 };
 
 /// `name` is the file's, without folder. Throws std::invalid_argument for options that the format does not

@@ -35,6 +35,7 @@ double valueOf(int ordinal) {
 }
 
 using Directions = Eigen::Matrix<double, 3, kDirections>;
+using Ordinals = std::array<int, 9>;  // of the free entries, in their order
 
 // A lattice over the disk, lifted: equal masses of the cosine.
 Directions makeCosineDirections() {
@@ -48,12 +49,6 @@ struct Cost {
   double detError = std::numeric_limits<double>::infinity();
   double shift = std::numeric_limits<double>::infinity();
 
-  // first the bound, then the lobe
-  bool operator<(const Cost& other) const {
-    const double a = std::max(detError, kHalfDeterminantLimit);
-    const double b = std::max(other.detError, kHalfDeterminantLimit);
-    return a < b || (a == b && shift < other.shift);
-  }
   bool withinBound() const { return detError <= kHalfDeterminantLimit; }
 };
 
@@ -62,70 +57,93 @@ class Search {
   Search(const Eigen::Matrix3d& stored, MatrixStorage stores, const std::array<bool, 9>& free)
       : stored_(stored), inverse_(stores == MatrixStorage::kMinv), det_(stored.determinant()) {
     for (int k = 0; k < 9; ++k) {
-      if (free[static_cast<std::size_t>(k)]) entries_.push_back(k);
+      if (free[static_cast<std::size_t>(k)]) entries_[count_++] = k;
     }
-    target_ = transform(stored_, det_);
-    for (int k : entries_) best_.push_back(clamped(k, ordinal(stored_(k / 3, k % 3))));
-    nearest_ = best_;
+    for (std::size_t i = 0; i < count_; ++i) nearest_[i] = clamped(i, exactOrdinal(i));
+    references_.push_back({Eigen::Matrix3d::Zero(), transform(stored_)});
+    best_ = nearest_;
     bestCost_ = cost(best_);
   }
 
-  bool nearestIsAllowed() const {
-    for (int k : entries_) {
-      const int o = ordinal(stored_(k / 3, k % 3));
-      if (clamped(k, o) != o) return false;
+  std::size_t count() const { return count_; }
+
+  // Whether the nearest halves leave the diagonal zero or subnormal, or are none.
+  bool isOutOfReach() const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double exact = stored_(entries_[i] / 3, entries_[i] % 3);
+      if (nearest_[i] != exactOrdinal(i) || std::abs(exact) > valueOf(kLargest)) return true;
     }
-    return cost(nearest_).withinBound();
+    return false;
   }
 
-  // Both neighbours of each entry: every combination of few entries, one entry at a time for many.
-  void roundings() {
-    std::vector<std::array<int, 2>> choices;
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-      const int k = entries_[i];
-      const double exact = stored_(k / 3, k % 3);
-      const int other = valueOf(nearest_[i]) > exact ? nearest_[i] - 1 : nearest_[i] + 1;
-      choices.push_back({nearest_[i], valueOf(nearest_[i]) == exact ? nearest_[i] : clamped(k, other)});
-    }
-    if (entries_.size() <= 5) {
-      for (std::size_t combination = 1; combination < (std::size_t{1} << entries_.size()); ++combination) {
-        std::vector<int> candidate = nearest_;
-        for (std::size_t i = 0; i < candidate.size(); ++i) candidate[i] = choices[i][(combination >> i) & 1u];
-        tryCandidate(candidate);
+  // From now on the shift on the way to these counts as well: near the node and halfway.
+  void addNeighbours(std::span<const Eigen::Matrix3d> neighbours) {
+    for (const Eigen::Matrix3d& n : neighbours) {
+      for (double t : {0.5, 0.125, 0.03125}) {
+        const Eigen::Matrix3d added = t / (1.0 - t) * n;
+        references_.push_back({added, transform(stored_ + added)});
       }
-      return;
     }
-    for (bool better = true; better;) {
-      better = false;
-      for (std::size_t i = 0; i < entries_.size(); ++i) {
-        std::vector<int> candidate = best_;
-        candidate[i] = choices[i][candidate[i] == choices[i][0] ? 1 : 0];
-        better = tryCandidate(candidate) || better;
+    bestCost_ = cost(best_);
+  }
+
+  // All combinations of the two halves about each entry. `bound`: determinants count first.
+  void roundings(bool bound) {
+    Ordinals other = nearest_;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double exact = stored_(entries_[i] / 3, entries_[i] % 3);
+      const double near = valueOf(nearest_[i]);
+      if (near != exact) other[i] = clamped(i, near > exact ? nearest_[i] - 1 : nearest_[i] + 1);
+    }
+    best_ = nearest_;
+    bestCost_ = cost(best_);
+    for (std::size_t combination = 1; combination < (std::size_t{1} << count_); ++combination) {
+      Ordinals candidate = nearest_;
+      for (std::size_t i = 0; i < count_; ++i) {
+        if (((combination >> i) & 1u) != 0) candidate[i] = other[i];
       }
+      tryCandidate(candidate, bound);
     }
   }
 
-  // For bounds that forbid the whole neighbourhood of the nearest: from there single entries and pairs by
-  // steps of halving length, in units of the last place, which are relative for normal halves. The
-  // determinant is a penalty that grows, so that the search leaves the lobe only as far as it must.
-  void pattern() {
-    std::vector<int> at = nearest_;
-    for (double weight : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
-      const auto penalized = [&](const std::vector<int>& candidate) {
+  // Every combination within `reach` places of the nearest halves that keeps the determinant.
+  void neighbourhood(int reach) {
+    Ordinals offset{};
+    std::fill_n(offset.begin(), count_, -reach);
+    for (;;) {
+      Ordinals candidate = nearest_;
+      for (std::size_t i = 0; i < count_; ++i) candidate[i] = clamped(i, nearest_[i] + offset[i]);
+      // the determinant is cheap, the shift is not
+      if (detError(matrix(candidate)) <= kHalfDeterminantLimit) tryCandidate(candidate, true);
+      std::size_t i = 0;
+      while (i < count_ && ++offset[i] > reach) offset[i++] = -reach;
+      if (i == count_) return;
+    }
+  }
+
+  // Single entries and pairs by steps of halving length, in units of the last place, which are relative for
+  // normal halves. With `bound` the determinant is a penalty that grows, so that the search leaves the lobe
+  // only as far as it must.
+  void pattern(bool bound) {
+    Ordinals at = nearest_;
+    const std::vector<double> weights =
+        bound ? std::vector<double>{1e-4, 1e-3, 1e-2, 1e-1, 1.0} : std::vector<double>{0.0};
+    for (double weight : weights) {
+      const auto penalized = [&](const Ordinals& candidate) {
         const Cost c = cost(candidate);
-        return c.shift +
-               weight * std::log(std::max(c.detError, kHalfDeterminantLimit) / kHalfDeterminantLimit);
+        return weight == 0.0 ? c.shift
+                             : c.shift + weight * std::log(std::max(c.detError / kHalfDeterminantLimit, 1.0));
       };
       double least = penalized(at);
       for (int step = 2048; step >= 1;) {
         bool better = false;
-        for (std::size_t move = 0; move < 4 * at.size() * at.size(); ++move) {
-          const std::size_t i = move / 4 / at.size();
-          const std::size_t j = move / 4 % at.size();
+        for (std::size_t move = 0; move < 4 * count_ * count_; ++move) {
+          const std::size_t i = move / 4 / count_;
+          const std::size_t j = move / 4 % count_;
           if (j < i) continue;
-          std::vector<int> candidate = at;
-          candidate[i] = clamped(entries_[i], candidate[i] + ((move & 1u) != 0 ? -step : step));
-          if (j != i) candidate[j] = clamped(entries_[j], candidate[j] + ((move & 2u) != 0 ? -step : step));
+          Ordinals candidate = at;
+          candidate[i] = clamped(i, candidate[i] + ((move & 1u) != 0 ? -step : step));
+          if (j != i) candidate[j] = clamped(j, candidate[j] + ((move & 2u) != 0 ? -step : step));
           const double value = penalized(candidate);
           if (!(value < least)) continue;
           least = value;
@@ -139,137 +157,120 @@ class Search {
     bestCost_ = cost(at);
   }
 
-  // For matrices of the x-z plane whose diagonal had to be lifted far: the determinant is a difference of two
-  // products, so one of m02 and m20 is tried over all magnitudes and the other one solved for.
-  void solveOffDiagonal() {
-    const auto m02 = std::find(entries_.begin(), entries_.end(), 2);
-    const auto m20 = std::find(entries_.begin(), entries_.end(), 6);
-    if (m02 == entries_.end() || m20 == entries_.end()) return;
-    const auto first = static_cast<std::size_t>(m02 - entries_.begin());
-    const auto second = static_cast<std::size_t>(m20 - entries_.begin());
-    std::vector<int> overall = best_;
-    Cost overallCost = bestCost_;
-    for (int magnitude = 1; magnitude <= kLargest; magnitude += 1 + magnitude / 16) {
-      for (int sign : {-1, 1}) {
-        best_ = nearest_;
-        best_[second] = sign * magnitude;
-        const Eigen::Matrix3d m = matrix(best_);
-        // det = m11 (m00 m22 - m02 m20)
-        best_[first] = ordinal((m(0, 0) * m(2, 2) - det_ / m(1, 1)) / m(2, 0));
-        bestCost_ = cost(best_);
-        neighbourhood(2);
-        if (bestCost_ < overallCost) {
-          overall = best_;
-          overallCost = bestCost_;
-        }
-      }
-    }
-    best_ = overall;
-    bestCost_ = overallCost;
-  }
-
-  // Every combination within `reach` places of the best: the determinant first, which is cheap.
-  void neighbourhood(int reach) {
-    const std::vector<int> centre = best_;
-    std::vector<int> candidate = centre;
-    std::vector<int> offset(entries_.size(), -reach);
-    for (;;) {
-      for (std::size_t i = 0; i < candidate.size(); ++i)
-        candidate[i] = clamped(entries_[i], centre[i] + offset[i]);
-      if (!bestCost_.withinBound() || detError(matrix(candidate).determinant()) <= kHalfDeterminantLimit)
-        tryCandidate(candidate);
-      std::size_t i = 0;
-      while (i < offset.size() && ++offset[i] > reach) offset[i++] = -reach;
-      if (i == offset.size()) return;
-    }
-  }
-
   bool withinBound() const { return bestCost_.withinBound(); }
+  bool found() const { return std::isfinite(bestCost_.shift); }
 
   HalfRounding result() const {
     HalfRounding out;
     out.matrix = matrix(best_);
-    out.shift = bestCost_.shift;
+    out.shift = shiftOf(out.matrix, references_[0]);
     out.detError = bestCost_.detError;
-    out.constrained = !nearestIsAllowed();
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-      out.moved = out.moved || best_[i] != ordinal(stored_(entries_[i] / 3, entries_[i] % 3));
+    out.constrained = isOutOfReach() || detError(matrix(nearest_)) > kHalfDeterminantLimit;
+    for (std::size_t i = 0; i < count_; ++i) out.moved = out.moved || best_[i] != exactOrdinal(i);
     return out;
   }
 
  private:
-  // Within the halves; on the diagonal normal and of the same sign.
-  int clamped(int k, int o) const {
-    o = std::clamp(o, -kLargest, kLargest);
-    if (k % 4 != 0) return o;
-    return stored_(k / 3, k % 3) < 0.0 ? std::min(o, -kSmallestNormal) : std::max(o, kSmallestNormal);
+  // A matrix to be added, and the lobe of the sum with the exact one: what is fetched between two nodes.
+  struct Reference {
+    Eigen::Matrix3d added;
+    Directions lobe;
+  };
+
+  int exactOrdinal(std::size_t i) const { return ordinal(stored_(entries_[i] / 3, entries_[i] % 3)); }
+
+  // Within the halves of the same sign; on the diagonal within the normal ones.
+  int clamped(std::size_t i, int o) const {
+    const double exact = stored_(entries_[i] / 3, entries_[i] % 3);
+    if (exact == 0.0) return 0;
+    const int least = entries_[i] % 4 == 0 ? kSmallestNormal : 0;
+    return exact < 0.0 ? std::clamp(o, -kLargest, -least) : std::clamp(o, least, kLargest);
   }
 
-  Eigen::Matrix3d matrix(const std::vector<int>& ordinals) const {
+  Eigen::Matrix3d matrix(const Ordinals& ordinals) const {
     Eigen::Matrix3d m = stored_;
-    for (std::size_t i = 0; i < ordinals.size(); ++i)
-      m(entries_[i] / 3, entries_[i] % 3) = valueOf(ordinals[i]);
+    for (std::size_t i = 0; i < count_; ++i) m(entries_[i] / 3, entries_[i] % 3) = valueOf(ordinals[i]);
     return m;
   }
 
-  double detError(double det) const { return std::abs(det / det_ - 1.0); }
+  double detError(const Eigen::Matrix3d& m) const { return std::abs(m.determinant() / det_ - 1.0); }
 
   // Directions of the lobe. The inverse up to its positive scale: the adjugate, with the determinant's sign.
-  Directions transform(const Eigen::Matrix3d& m, double det) const {
+  Directions transform(const Eigen::Matrix3d& m) const {
     static const Directions cosine = makeCosineDirections();
     Eigen::Matrix3d t = m;
     if (inverse_) {
       t.row(0) = m.col(1).cross(m.col(2));
       t.row(1) = m.col(2).cross(m.col(0));
       t.row(2) = m.col(0).cross(m.col(1));
-      if (det < 0.0) t = -t;
+      if (det_ < 0.0) t = -t;
     }
     return (t * cosine).colwise().normalized();
   }
 
-  Cost cost(const std::vector<int>& ordinals) const {
+  double shiftOf(const Eigen::Matrix3d& m, const Reference& reference) const {
+    return (transform(m + reference.added) - reference.lobe).colwise().norm().mean();
+  }
+
+  Cost cost(const Ordinals& ordinals) const {
     const Eigen::Matrix3d m = matrix(ordinals);
-    const double det = m.determinant();
     Cost out;
-    if (!(det / det_ > 0.0)) return out;
-    out.detError = detError(det);
-    out.shift = (transform(m, det) - target_).colwise().norm().mean();
+    double sum = 0.0;
+    for (const Reference& reference : references_) {
+      // a determinant that changes its sign is a lobe turned inside out: black in a renderer
+      const double exact = (stored_ + reference.added).determinant();
+      if (!((m + reference.added).determinant() / exact > 0.0)) return out;
+      sum += shiftOf(m, reference);
+    }
+    out.detError = detError(m);
+    out.shift = sum / static_cast<double>(references_.size());
     return out;
   }
 
-  bool tryCandidate(const std::vector<int>& candidate) {
+  void tryCandidate(const Ordinals& candidate, bool bound) {
     const Cost c = cost(candidate);
-    if (!(c < bestCost_)) return false;
+    if (bound) {
+      const double a = std::max(c.detError, kHalfDeterminantLimit);
+      const double b = std::max(bestCost_.detError, kHalfDeterminantLimit);
+      if (!(a < b || (a == b && c.shift < bestCost_.shift))) return;
+    } else if (!(c.shift < bestCost_.shift)) {
+      return;
+    }
     best_ = candidate;
     bestCost_ = c;
-    return true;
   }
 
   Eigen::Matrix3d stored_;
   bool inverse_;
   double det_;
-  std::vector<int> entries_;
-  Directions target_;
-  std::vector<int> nearest_;
-  std::vector<int> best_;
+  std::array<int, 9> entries_{};
+  std::size_t count_ = 0;
+  std::vector<Reference> references_;
+  Ordinals nearest_{};
+  Ordinals best_{};
   Cost bestCost_;
 };
 
 }  // namespace
 
-HalfRounding roundToHalf(const Eigen::Matrix3d& stored, MatrixStorage stores,
-                         const std::array<bool, 9>& free) {
+HalfRounding roundToHalf(const Eigen::Matrix3d& stored, MatrixStorage stores, const std::array<bool, 9>& free,
+                         std::span<const Eigen::Matrix3d> neighbours) {
   Search search(stored, stores, free);
-  search.roundings();
-  const bool few = std::count(free.begin(), free.end(), true) <= 5;
-  if (!search.withinBound()) search.neighbourhood(few ? 4 : 1);
-  if (!search.withinBound()) search.neighbourhood(few ? 4 : 2);
-  if (!search.withinBound()) {
-    search.pattern();
-    search.neighbourhood(few ? 4 : 1);
+  if (!search.isOutOfReach()) {
+    search.roundings(true);
+    // 4 places of 5 entries and 2 of 9: 6,561 and 2 million determinants, the latter 40 ms
+    const bool few = search.count() <= 5;
+    if (!search.withinBound()) search.neighbourhood(few ? 4 : 1);
+    if (!search.withinBound() && !few) search.neighbourhood(2);
+    if (!search.withinBound()) search.roundings(false);
+  } else {
+    search.addNeighbours(neighbours);
+    search.pattern(false);
+    Search bounded = search;
+    bounded.pattern(true);
+    if (bounded.withinBound()) search = bounded;
   }
-  if (!search.withinBound()) search.solveOffDiagonal();
-  if (!search.withinBound()) throw std::invalid_argument("is out of reach of half precision");
+  if (!search.found()) throw std::invalid_argument("is out of reach of half precision");
   return search.result();
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 
 #include "ltc/table.h"
 
@@ -15,22 +16,24 @@ inline constexpr double kHalfDeterminantLimit = 0.0095;
 struct HalfRounding {
   Eigen::Matrix3d matrix;    ///< the free entries are halves, none on the diagonal zero or subnormal
   double shift = 0.0;        ///< mean distance between directions of the two lobes, radians
-  double detError = 0.0;     ///< |det(matrix) / det(given) - 1|
+  double detError = 0.0;     ///< |det(matrix) / det(given) - 1|; above the limit where halves cannot meet it
   bool moved = false;        ///< some entry is not the half nearest to it
   bool constrained = false;  ///< the nearest halves would have broken a bound below
 };
 
 /// Rounds the entries marked in `free` (row-major) to halves; the others stay as they are. `stored` is M or
-/// its inverse, as `stores` says, with det != 0.
+/// its inverse, as `stores` says, with det != 0. `neighbours` are the matrices of the nodes next to it.
 ///
 /// What is minimised is not the rounding of each number but the shift of the lobe: the mean distance on the
 /// unit sphere between M x / |M x| and M' x / |M' x| over directions x of the cosine, an upper bound of the
-/// transport distance between the two lobes. Under two bounds: free entries on the diagonal are normal
-/// halves of the same sign (subnormal ones are flushed to zero on much hardware, and a zero makes matrices
-/// singular), and the determinant keeps within kHalfDeterminantLimit. Where the given matrix is out of
-/// reach of halves (90 degrees at the smallest alpha), the lobe moves as little as these bounds permit.
-/// Throws std::invalid_argument where no matrix in reach meets them.
-HalfRounding roundToHalf(const Eigen::Matrix3d& stored, MatrixStorage stores,
-                         const std::array<bool, 9>& free);
+/// transport distance between the two lobes. Bounds:
+///   entries keep their sign, zeros stay zero: between nodes nothing changes sides that did not before;
+///   those on the diagonal are normal halves: zero makes matrices singular, subnormals have few digits;
+///   the determinant keeps within kHalfDeterminantLimit where halves near the matrix can do so.
+/// Where the diagonal has to be lifted out of the subnormal halves (90 degrees at the smallest alphas), the
+/// shift halfway to the neighbours counts as much as the node's own, and the determinant comes second to
+/// both. Throws std::invalid_argument for entries that no half reaches.
+HalfRounding roundToHalf(const Eigen::Matrix3d& stored, MatrixStorage stores, const std::array<bool, 9>& free,
+                         std::span<const Eigen::Matrix3d> neighbours = {});
 
 }  // namespace ltcfit

@@ -1,5 +1,7 @@
 #include "export/little_endian.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 
 namespace ltcfit {
@@ -30,6 +32,12 @@ std::vector<float> readValues(std::string_view bytes, Precision precision) {
   }
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = halfValue(readAt<std::uint16_t>(bytes, 2 * i));
   return values;
+}
+
+std::string checksum(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
 }
 
 }  // namespace ltcfit

@@ -1,21 +1,19 @@
 #include "export/packing.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <stdexcept>
 
-#include "export/half_matrix.h"
+#include "export/half_table.h"
 #include "export/little_endian.h"
 #include "ltc/sphere.h"
 
 namespace ltcfit {
 namespace {
-
-constexpr double kSmallestNormalHalf = 6.103515625e-5;
-constexpr double kLargestHalf = 65504.0;
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::invalid_argument(what);
@@ -49,12 +47,6 @@ Divisor divisorOf(MatrixNormalization normalization) {
   if (normalization == MatrixNormalization::kMiddleElement) return Divisor::kM11;
   if (normalization == MatrixNormalization::kThirdColumnUnit) return Divisor::kThirdColumn;
   return Divisor::kNone;
-}
-
-MatrixNormalization normalizationOf(Divisor divisor) {
-  if (divisor == Divisor::kM11) return MatrixNormalization::kMiddleElement;
-  if (divisor == Divisor::kThirdColumn) return MatrixNormalization::kThirdColumnUnit;
-  return MatrixNormalization::kNone;
 }
 
 // M or its inverse over the divisor. Mirrors of x and y (columns of M, rows of its inverse) are the same
@@ -102,76 +94,23 @@ std::vector<Eigen::Matrix3d> packedMatrices(const Table& table, const Packing& p
       if (!rounded.allFinite()) fail("has a matrix that does not fit float32");
       out.push_back(rounded.cast<double>());
     } catch (const std::invalid_argument& error) {
-      fail("node " + std::to_string(i) + " " + error.what());
+      fail(fmt::format("{} {}", placeOf(table, i), error.what()));
     }
   }
   return out;
 }
 
 // What a texture of the layout has no component for must be zero, or the divisor.
-void checkPlaces(const std::vector<Eigen::Matrix3d>& matrices, const std::array<bool, 9>& placed,
-                 Divisor divisor) {
+void checkPlaces(const Table& table, const std::vector<Eigen::Matrix3d>& matrices,
+                 const std::array<bool, 9>& placed, Divisor divisor) {
   for (std::size_t k = 0; k < 9; ++k) {
     if (placed[k] || divisorIndex(divisor) == k) continue;
     for (std::size_t i = 0; i < matrices.size(); ++i) {
       if (matrices[i](static_cast<int>(k / 3), static_cast<int>(k % 3)) != 0.0) {
-        fail("node " + std::to_string(i) + " has an entry m" + std::to_string(k / 3) + std::to_string(k % 3) +
-             ", for which this layout has no place");
+        fail(fmt::format("{} has an entry m{}{}, for which this layout has no place", placeOf(table, i),
+                         k / 3, k % 3));
       }
     }
-  }
-}
-
-// The smallest power of two that lifts every diagonal entry above the subnormal halves.
-double halfScale(const std::vector<Eigen::Matrix3d>& matrices) {
-  double smallest = kSmallestNormalHalf;
-  double largest = 0.0;
-  for (const Eigen::Matrix3d& m : matrices) {
-    smallest = std::min(smallest, m.diagonal().cwiseAbs().minCoeff());
-    largest = std::max(largest, m.cwiseAbs().maxCoeff());
-  }
-  double scale = 1.0;
-  while (smallest * scale < kSmallestNormalHalf && 2.0 * largest * scale <= kLargestHalf) scale *= 2.0;
-  return scale;
-}
-
-void roundMatrices(std::vector<Eigen::Matrix3d>& matrices, const std::array<bool, 9>& placed,
-                   PackedTable& packed) {
-  const std::optional<std::size_t> fixed = divisorIndex(packed.packing.divisor);
-  std::array<bool, 9> free = placed;
-  if (fixed) free[*fixed] = false;
-  if (!fixed) packed.scale = halfScale(matrices);
-  // tables hold equal matrices (at alpha 0 for every lambda), and some take long
-  std::map<std::vector<double>, std::size_t> firstOf;
-  std::vector<std::size_t> source(matrices.size());
-  std::vector<std::size_t> different;
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    const auto [found, isNew] = firstOf.try_emplace({matrices[i].data(), matrices[i].data() + 9}, i);
-    source[i] = found->second;
-    if (isNew) different.push_back(i);
-  }
-  std::vector<HalfRounding> roundings(matrices.size());
-  std::vector<std::string> errors(matrices.size());
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < different.size(); ++k) {
-    const std::size_t i = different[k];
-    try {
-      roundings[i] = roundToHalf(packed.scale * matrices[i], packed.packing.stores, free);
-    } catch (const std::invalid_argument& error) {
-      errors[i] = "node " + std::to_string(i) + " " + error.what();
-    }
-  }
-  for (const std::string& error : errors)
-    if (!error.empty()) fail(error);
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    const HalfRounding& rounding = roundings[source[i]];
-    matrices[i] = rounding.matrix;
-    const Eigen::Matrix3d m =
-        packed.packing.stores == MatrixStorage::kM ? rounding.matrix : rounding.matrix.inverse().eval();
-    packed.half.nodes.push_back(
-        {i, rounding.shift, rounding.detError, rounding.constrained, rounding.moved, m});
-    packed.half.moved += rounding.moved ? 1 : 0;
-    packed.half.constrained += rounding.constrained ? 1 : 0;
   }
 }
 
@@ -220,6 +159,12 @@ Divisor divisorFromName(std::string_view name) {
   fail("matrix.divided_by '" + std::string(name) + "' (none, m00, m11, m22 or third-column)");
 }
 
+MatrixNormalization normalizationOf(Divisor divisor) {
+  if (divisor == Divisor::kM11) return MatrixNormalization::kMiddleElement;
+  if (divisor == Divisor::kThirdColumn) return MatrixNormalization::kThirdColumnUnit;
+  return MatrixNormalization::kNone;
+}
+
 Packing packing2017() {
   return {MatrixStorage::kMinv,
           Divisor::kM11,
@@ -238,7 +183,7 @@ Packing packingOfChannels(const TableInfo& info, std::size_t components) {
   Packing packing{info.stores, divisorOf(info.normalization), {}};
   for (std::size_t c = 0; c < info.channels.size(); c += components) {
     TextureSpec texture{"channels", {}};
-    if (components < info.channels.size()) texture.name += std::to_string(c / components);
+    if (components < info.channels.size()) texture.name = fmt::format("channels{}", c / components);
     for (std::size_t k = c; k < c + components; ++k)
       texture.components.push_back(k < info.channels.size() ? info.channels[k] : "0");
     packing.textures.push_back(texture);
@@ -255,13 +200,19 @@ PackedTable pack(const Table& table, const Packing& packing, Precision precision
   for (TextureSpec& texture : packed.packing.textures) {
     for (std::string& component : texture.components) {
       if (const std::optional<std::size_t> k = matrixIndex(component)) placed[*k] = true;
-      if ((component == "norm" || component == "fresnel") && !holds(table.info(), component)) component = "0";
-      if (component == "sphere" && !table.isIsotropic()) component = "0";
+      if ((component == "norm" || component == "fresnel") && !holds(table.info(), component))
+        component.assign(1, '0');
+      if (component == "sphere" && !table.isIsotropic()) component.assign(1, '0');
     }
   }
   std::vector<Eigen::Matrix3d> matrices = packedMatrices(table, packing);
-  checkPlaces(matrices, placed, packing.divisor);
-  if (precision == Precision::kHalf) roundMatrices(matrices, placed, packed);
+  checkPlaces(table, matrices, placed, packing.divisor);
+  if (precision == Precision::kHalf) {
+    std::array<bool, 9> free = placed;
+    if (const std::optional<std::size_t> fixed = divisorIndex(packing.divisor)) free[*fixed] = false;
+    packed.scale = divisorIndex(packing.divisor) ? 1.0 : halfScale(matrices);
+    packed.half = roundMatrices(table, matrices, packing.stores, free, packed.scale);
+  }
 
   for (const TextureSpec& texture : packed.packing.textures) {
     Image image = emptyImage(table.info(), texture.components.size(), precision);
@@ -280,8 +231,10 @@ PackedTable pack(const Table& table, const Packing& packing, Precision precision
         } else {
           value = table.data()[i * table.channelCount() + static_cast<std::size_t>(channel)];
         }
-        image.values[i * image.components + c] =
-            precision == Precision::kHalf ? halfValue(halfBits(value)) : value;
+        const float written = precision == Precision::kHalf ? halfValue(halfBits(value)) : value;
+        if (!std::isfinite(written))
+          fail(fmt::format("{} has a {} of {}, which no half can hold", placeOf(table, i), component, value));
+        image.values[i * image.components + c] = written;
       }
     }
     packed.images.push_back(std::move(image));

@@ -1,12 +1,13 @@
 // What the numbers of a texture mean: which coefficient of which matrix, divided by what, in which texture.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "export/half_table.h"
 #include "export/image.h"
 #include "ltc/table.h"
 
@@ -24,6 +25,8 @@ enum class Divisor {
 /// Name in the metadata: "none", "m00", "m11", "m22", "third-column"; back: std::invalid_argument.
 std::string_view divisorName(Divisor divisor);
 Divisor divisorFromName(std::string_view name);
+/// What a table file calls a matrix divided so.
+MatrixNormalization normalizationOf(Divisor divisor);
 
 /// One texture of a packing: what its components hold. Names are m{row}{column} of the stored matrix, "norm",
 /// "fresnel", "sphere" (horizon-clipped sphere form factor over the form factor, which has axes of its own:
@@ -51,22 +54,6 @@ Packing packingOfRows();
 /// nothing is lost in float.
 Packing packingOfChannels(const TableInfo& info, std::size_t components);
 
-/// What rounding to halves did to one node.
-struct HalfNode {
-  std::size_t node = 0;
-  double shift = 0.0;  ///< of the lobe's directions, radians (export/half_matrix.h)
-  double detError = 0.0;
-  bool constrained = false;                     ///< the nearest halves would have broken a bound
-  bool moved = false;                           ///< some entry is not the half nearest to it
-  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();  ///< M of the rounded matrix, up to its scale
-};
-
-struct HalfReport {
-  std::size_t moved = 0;        ///< nodes with an entry that is not the nearest half
-  std::size_t constrained = 0;  ///< nodes whose nearest halves would have broken a bound
-  std::vector<HalfNode> nodes;  ///< all, in the order of the table; empty for floats
-};
-
 /// The textures of a table, and all that a reader needs to make a table of them again.
 struct PackedTable {
   TableInfo info;  ///< of the table; `stores`, `normalization` and `channels` as packed
@@ -74,8 +61,10 @@ struct PackedTable {
   Precision precision = Precision::kFloat;
   double scale = 1.0;         ///< the matrix in the textures is this power of two times the one described
   std::vector<Image> images;  ///< one for each texture of the packing
-  std::vector<std::string> files;  ///< where each texture has a file of its own: the names, in one folder
-  std::string container;           ///< how the textures lie in the file, as the metadata say it
+  /// Where metadata lie beside their files: names in the same folder and checksums, one file for all textures
+  /// or one for each.
+  std::vector<std::pair<std::string, std::string>> files;
+  std::string container;  ///< how the textures lie in the file, as the metadata say it
   HalfReport half;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "export/anisotropic_c_header.h"
@@ -111,6 +112,7 @@ std::vector<std::string> playCanvasWarnings(const PackedTable& packed) {
     const char* name;
   };
   constexpr double kAny = std::numeric_limits<double>::infinity();
+  constexpr double kHalfStep = 0.5 / 255.0;  // of 8 bits over a unit range: nothing that they could show
   constexpr std::array<Range, 4> kRanges{{{0, 1, -0.2976, kAny, "Minv20"},
                                           {0, 2, -0.01381, kAny, "Minv02"},
                                           {0, 3, -kAny, 1.6577, "Minv22"},
@@ -124,7 +126,7 @@ std::vector<std::string> playCanvasWarnings(const PackedTable& packed) {
     for (std::size_t i = 0; i < image.texels(); ++i) {
       const double v = static_cast<double>(image.values[i * image.components + range.component]);
       const double excess = std::max(range.low - v, v - range.high);
-      if (!(excess > 0.0)) continue;
+      if (!(excess > kHalfStep)) continue;
       ++outside;
       if (excess > worst) {
         worst = excess;
@@ -140,10 +142,6 @@ std::vector<std::string> playCanvasWarnings(const PackedTable& packed) {
                     range.name, value, outside, low ? "below" : "above", low ? range.low : range.high));
   }
   return warnings;
-}
-
-ExportFile sidecar(const PackedTable& packed, const std::string& name, const char* container) {
-  return {sidecarPath(name), textureMetadata(packed, container)};
 }
 
 }  // namespace
@@ -237,6 +235,7 @@ ExportResult exportProfile(const Table& given, const Profile& profile, bool resa
                            const std::string& name) {
   const Table table = withAxes(given, profile, resample);
   ExportResult result;
+  result.table = table;
   if (profile.name == "anisotropic-2022") {
     result.files = {{name, tableToAnisotropicCHeader(table, "anisomats")}};
     return result;
@@ -259,16 +258,14 @@ ExportResult exportProfile(const Table& given, const Profile& profile, bool resa
         appendValues(bytes, std::vector<float>(texel, texel + 4), precision);
       }
     }
-    result.files = {{name, std::move(bytes)}};
-    result.files.push_back(sidecar(packed, name, kBabylonContainer));
+    result.files = toRawFiles(packed, std::move(bytes), name, kBabylonContainer);
   } else if (profile.name == "playcanvas") {
     packed = packedAs(packing2017());
     std::string bytes;
     append(bytes, std::int16_t{0});
     append(bytes, std::int16_t{1});
     for (const Image& image : packed.images) appendValues(bytes, image.values, precision);
-    result.files = {{name, std::move(bytes)}};
-    result.files.push_back(sidecar(packed, name, kPlayCanvasContainer));
+    result.files = toRawFiles(packed, std::move(bytes), name, kPlayCanvasContainer);
     result.warnings = playCanvasWarnings(packed);
   } else if (profile.name == "bevy") {
     packed = packedAs(packing2017());
@@ -288,11 +285,14 @@ ExportResult exportProfile(const Table& given, const Profile& profile, bool resa
   } else if (profile.name == "godot") {
     packed = packedAs(packingOfGodot());
     result.files = toDdsFiles(packed, DdsHeader::kDx10, names);
-  } else {
+  } else if (profile.name == "selfshadow-dds") {
     packed = packedAs(packing2017());
     result.files = toDdsFiles(packed, DdsHeader::kLegacy, names);
+  } else {
+    throw std::logic_error("profile without a writer");
   }
   result.half = std::move(packed.half);
+  if (std::optional<std::string> warning = warningOf(result.half)) result.warnings.push_back(*warning);
   return result;
 }
 

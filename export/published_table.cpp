@@ -16,10 +16,37 @@ constexpr double kFloor2017 = 1e-5;
 constexpr double kTheta2017 = 1.57;
 constexpr double kFloor2022 = 1e-4;
 constexpr double kTheta2022 = 0.9999 * kHalfPi;
+constexpr double kMaxOdd = 0.02;  // part of the texels
 
 Axis withLastValue(Axis axis, double value) {
   axis.values.back() = value;
   return axis;
+}
+
+// What nearly every texel of such a table has, and other layouts do not: a diagonal and a determinant above
+// zero; a norm in (0, 1] not below the Fresnel term, and an empty third component. Published tables break
+// each at a few texels.
+void checkIs2017(const Image& first, const Image* second, const std::string& name) {
+  std::size_t badMatrix = 0;
+  std::size_t badAmplitude = 0;
+  for (std::size_t i = 0; i < first.texels(); ++i) {
+    const float* const m = first.values.data() + i * first.components;
+    badMatrix += m[0] > 0.0f && m[3] > 0.0f && m[0] * m[3] - m[1] * m[2] > 0.0f ? 0 : 1;
+    if (second == nullptr) continue;
+    const float* const a = second->values.data() + i * second->components;
+    const bool good = a[0] > 0.0f && a[0] < 1.01f && a[1] > -0.01f && a[1] < a[0] + 0.01f &&
+                      (second->components < 3 || a[2] == 0.0f);
+    badAmplitude += good ? 0 : 1;
+  }
+  const auto check = [&](std::size_t bad, const char* what) {
+    if (static_cast<double>(bad) <= kMaxOdd * static_cast<double>(first.texels())) return;
+    throw InputError(
+        fmt::format("{}: not the layout of 2017 ({} texels of {} have {}), and no description of another one "
+                    "beside it",
+                    name, bad, first.texels(), what));
+  };
+  check(badMatrix, "no matrix of it: Minv00, Minv22 and the determinant must be above 0");
+  check(badAmplitude, "no norm in 0..1 with a Fresnel term below it in the second texture");
 }
 
 }  // namespace
@@ -43,13 +70,14 @@ Table tableFrom2017(const Image& first, const Image* second, const std::string& 
   if (thirdIsZero)
     throw InputError(name + ": this is the second texture (norm, Fresnel); give the first one");
 
+  checkIs2017(first, second, name);
   TableInfo info;
   info.stores = MatrixStorage::kMinv;
   info.normalization = MatrixNormalization::kMiddleElement;
   info.channels = {"m00", "m20", "m02", "m22", "m11"};
   if (second != nullptr) info.channels.insert(info.channels.end(), {"norm", "fresnel"});
   info.alphaFloor = kFloor2017;
-  info.provenance.tool = "published 2017 table";
+  info.provenance.tool = "an undescribed table in the layout of 2017, taken for its axes";
   info.provenance.options = {{"family", std::string("3")}};  // what its authors' code fits
   std::vector<float> data;
   data.reserve(texels * info.channels.size());
@@ -80,7 +108,7 @@ Table tableFrom2022(const FloatArray& array, const std::string& name) {
   info.normalization = MatrixNormalization::kThirdColumnUnit;
   info.channels = {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22"};
   info.alphaFloor = kFloor2022;
-  info.provenance.tool = "published 2022 table";
+  info.provenance.tool = "an undescribed table in the layout of 2022, taken for its axes";
   try {
     const AxisMap linear = AxisMap::kLinear;
     info.axes.push_back(makeAxis("alpha", "1", linear, s[0], 0.0, 1.0));

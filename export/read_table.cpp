@@ -25,6 +25,8 @@ namespace {
 
 // Sidecars hold a header and a few axes.
 constexpr std::uint64_t kMaxSidecar = std::uint64_t{1} << 26;
+// 64^4 nodes of 9 numbers in binary; in JSON 32^4.
+constexpr std::uint64_t kMaxTable = std::uint64_t{1} << 30;
 
 // Where the second texture of the 2017 table lies: "ltc2017-1.npy" has "ltc2017-2.npy" beside it.
 std::string secondTexturePath(const std::string& path) {
@@ -37,13 +39,43 @@ std::string secondTexturePath(const std::string& path) {
   return std::filesystem::exists(p) ? p.string() : std::string();
 }
 
-// The metadata beside a file, if there is any.
-std::optional<PackedTable> readSidecar(const std::string& path) {
+// The metadata beside a file, if there are any. That they are the file's own is checked, not believed.
+std::optional<PackedTable> readSidecar(const std::string& path, std::string_view bytes) {
   const std::string beside = sidecarPath(path);
-  if (!std::filesystem::exists(beside)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(beside)) return std::nullopt;
   const std::string text = readFile(beside, kMaxSidecar);
   if (!isTextureMetadata(text)) return std::nullopt;
-  return packedFromMetadata(text, beside);
+  PackedTable packed = packedFromMetadata(text, beside);
+  const std::string sum = checksum(bytes);
+  const bool known = std::any_of(packed.files.begin(), packed.files.end(),
+                                 [&](const auto& file) { return file.second == sum; });
+  if (!known) {
+    throw InputError(fmt::format(
+        "{}: describes another file than {} (its checksum is not among the described ones); export "
+        "again, or move the description away",
+        beside, path));
+  }
+  return packed;
+}
+
+// The file of each texture: the one given, and those that its metadata name beside it.
+std::vector<Image> readFiles(const PackedTable& packed, const std::string& bytes, const std::string& path) {
+  std::vector<Image> images;
+  for (const auto& [name, sum] : packed.files) {
+    if (sum == checksum(bytes)) {
+      images.push_back(parseDds(bytes, path));
+      continue;
+    }
+    const std::string file = (std::filesystem::path(path).parent_path() / name).string();
+    if (!std::filesystem::is_regular_file(file))
+      throw InputError(fmt::format("{}: not there, and {} is one of several files", file, path));
+    const std::string other = readFile(file);
+    if (checksum(other) != sum)
+      throw InputError(
+          fmt::format("{}: does not belong to {} (its checksum is another one than described)", file, path));
+    images.push_back(parseDds(other, file));
+  }
+  return images;
 }
 
 std::vector<Image> layersOf(const Image& image) {
@@ -103,7 +135,7 @@ Table readTexture(const std::string& bytes, const std::string& path) {
     }
     return tableWithoutMetadata(file.image, path);
   }
-  packed = readSidecar(path);
+  packed = readSidecar(path, bytes);
   if (isNpy(bytes)) {
     const FloatArray array = parseNpy(bytes, path);
     if (packed) return tableFromNumbers(std::move(*packed), array.values, path);
@@ -112,12 +144,8 @@ Table readTexture(const std::string& bytes, const std::string& path) {
   }
   const Image image = parseDds(bytes, path);
   if (!packed) return tableWithoutMetadata(image, path);
-  if (packed->files.empty()) return tableFromStack(std::move(*packed), image, path);
-  std::vector<Image> images;
-  for (const std::string& name : packed->files) {
-    const std::string file = (std::filesystem::path(path).parent_path() / name).string();
-    images.push_back(parseDds(readFile(file), file));
-  }
+  if (packed->files.size() == 1) return tableFromStack(std::move(*packed), image, path);
+  std::vector<Image> images = readFiles(*packed, bytes, path);
   return tableFromImages(std::move(*packed), std::move(images), path);
 }
 
@@ -143,8 +171,25 @@ bool looksLikeText(std::string_view bytes) {
 
 }  // namespace
 
+std::vector<std::string> filesOfTable(const std::string& path) {
+  std::vector<std::string> files{path};
+  const std::string beside = sidecarPath(path);
+  std::error_code error;
+  if (std::filesystem::is_regular_file(beside, error)) {
+    files.push_back(beside);
+    try {
+      for (const auto& [name, sum] : packedFromMetadata(readFile(beside, kMaxSidecar), beside).files)
+        files.push_back((std::filesystem::path(path).parent_path() / name).string());
+    } catch (const InputError&) {
+      // not a description: still not to be overwritten by accident
+    }
+  }
+  if (const std::string second = secondTexturePath(path); !second.empty()) files.push_back(second);
+  return files;
+}
+
 Table readTable(const std::string& path) {
-  const std::string bytes = readFile(path);
+  const std::string bytes = readFile(path, kMaxTable);
   if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path);
   if (isExr(bytes)) return tableFromExr(bytes, path);
   // a byte order mark, as editors of one vendor leave it, is not part of the text
@@ -155,13 +200,14 @@ Table readTable(const std::string& path) {
       throw InputError(path + ": describes a texture file; give that one (the name without .json)");
     return tableFromJson(bytes, path);
   }
-  if (std::optional<PackedTable> packed = readSidecar(path)) {
-    std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
+  if (looksLikeText(bytes)) {
+    if (std::optional<Table> table = tableFromSource(bytes, path)) return std::move(*table);
+  } else if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
+    const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
     return tableFromNumbers(std::move(*packed), numbers, path);
+  } else if (std::optional<Table> table = tableFromEngineBinary(bytes, path)) {
+    return std::move(*table);
   }
-  std::optional<Table> table =
-      looksLikeText(bytes) ? tableFromSource(bytes, path) : tableFromEngineBinary(bytes, path);
-  if (table) return std::move(*table);
   throw InputError(path +
                    ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "
                    "module with LTC_MAT_1, nor PlayCanvas' or Babylon.js' binary");

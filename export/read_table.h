@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ltc/table.h"
 
@@ -11,12 +12,18 @@ namespace ltcfit {
 ///   our JSON;
 ///   what `ltcfit export` writes as KTX2, EXR, DDS, .npy or raw numbers, with the metadata in the file or in
 ///   FILE.json beside it;
-///   the layout of 2017 without metadata, as engines ship it: .npy, DDS or KTX2 (one file of two layers, or
-///   the first of two files: the second one is looked for next to it, with the last '1' of the name made a
-///   '2'), a JavaScript module with LTC_MAT_1 and LTC_MAT_2 (three.js), PlayCanvas' and Babylon.js' binaries;
-///   C headers: ltcfit's isotropic one and its like (arrays of 4 and 2 numbers a texel), and the anisotropic
-///   one of 2022 (five dimensions, 9 numbers last); the published 2022 table as .npy.
+/// Metadata beside a file count only with the checksum of that file.
+///   the layout of 2017 without metadata, as engines ship it (numbers that such a table does not have are
+///   refused): .npy, DDS or KTX2 (one file of two layers, or the first of two files: the second one is looked
+///   for next to it, with the last '1' of the name made a '2'), a JavaScript module with LTC_MAT_1 and
+///   LTC_MAT_2 (three.js), PlayCanvas' and Babylon.js' binaries; C headers: ltcfit's isotropic one and its
+///   like (arrays of 4 and 2 numbers a texel), and the anisotropic one of 2022 (five dimensions, 9 numbers
+///   last); the published 2022 table as .npy.
 /// Throws InputError: not there, not readable, not one of these, or damaged.
 Table readTable(const std::string& path);
+
+/// The files that reading this one may take: itself, its description, the second texture. What must not be
+/// written over while it is read.
+std::vector<std::string> filesOfTable(const std::string& path);
 
 }  // namespace ltcfit

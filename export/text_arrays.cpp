@@ -110,6 +110,8 @@ std::vector<TextArray> arraysOfText(std::string_view text, std::vector<std::stri
            (isWord(text[open]) || isSpace(text[open]) || text[open] == '('))
       ++open;
     if (open >= text.size() || (text[open] != '[' && text[open] != '{')) continue;
+    // a shader's vec4[4096](..) has its numbers elsewhere
+    if (open > at && isWord(text[open - 1])) continue;
     TextArray array;
     if (!readName(text, equals, array)) continue;
     at = open;

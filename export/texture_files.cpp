@@ -21,8 +21,14 @@ constexpr std::string_view kComponentNames = "RGBA";
 constexpr std::size_t kMaxNodes = std::size_t{1} << 28;
 constexpr std::size_t kMaxComponents = 16;
 
-ExportFile sidecar(const PackedTable& packed, const std::string& name, const std::string& container) {
-  return {sidecarPath(name), textureMetadata(packed, container)};
+// Adds the metadata of the files written so far: beside each of them, so that it does not matter which of
+// several is named.
+void addSidecars(std::vector<ExportFile>& files, PackedTable packed, const std::string& container) {
+  packed.files.clear();
+  for (const ExportFile& file : files) packed.files.emplace_back(file.name, checksum(file.bytes));
+  const std::size_t count = files.size();
+  for (std::size_t i = 0; i < count; ++i)
+    files.push_back({sidecarPath(files[i].name), textureMetadata(packed, container)});
 }
 
 // Name of a channel in an EXR file.
@@ -100,8 +106,11 @@ std::vector<ExportFile> toKtx2Files(const PackedTable& packed, Ktx2Compression c
 
 std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header, const std::string& name) {
   const Image stack = stackedImage(packed);
-  if (stack.layers == 1 || header == DdsHeader::kDx10)
-    return {{name, imageToDds(stack, header)}, sidecar(packed, name, stackText(packed))};
+  if (stack.layers == 1 || header == DdsHeader::kDx10) {
+    std::vector<ExportFile> files{{name, imageToDds(stack, header)}};
+    addSidecars(files, packed, stackText(packed));
+    return files;
+  }
   const std::filesystem::path path(name);
   std::vector<std::string> names;
   for (std::size_t t = 0; t < packed.images.size(); ++t)
@@ -114,8 +123,7 @@ std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header,
   std::vector<ExportFile> files;
   for (std::size_t t = 0; t < packed.images.size(); ++t)
     files.push_back({names[t], imageToDds(packed.images[t], header)});
-  packed.files = names;
-  files.push_back(sidecar(packed, names[0], "one file a texture"));
+  addSidecars(files, packed, "one file a texture");
   return files;
 }
 
@@ -163,16 +171,24 @@ std::vector<ExportFile> toNpyFiles(const PackedTable& packed, const std::string&
   array.shape.push_back(packed.images[0].components);
   for (const Image& image : packed.images)
     array.values.insert(array.values.end(), image.values.begin(), image.values.end());
-  return {{name, arrayToNpy(array, packed.precision)},
-          sidecar(packed, name,
-                  packed.images.size() > 1 ? "array (textures, axes.., components)"
-                                           : "array (axes.., components)")};
+  std::vector<ExportFile> files{{name, arrayToNpy(array, packed.precision)}};
+  addSidecars(
+      files, packed,
+      packed.images.size() > 1 ? "array (textures, axes.., components)" : "array (axes.., components)");
+  return files;
+}
+
+std::vector<ExportFile> toRawFiles(const PackedTable& packed, std::string bytes, const std::string& name,
+                                   const std::string& container) {
+  std::vector<ExportFile> files{{name, std::move(bytes)}};
+  addSidecars(files, packed, container);
+  return files;
 }
 
 std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string& name) {
   std::string bytes;
   for (const Image& image : packed.images) appendValues(bytes, image.values, packed.precision);
-  return {{name, std::move(bytes)}, sidecar(packed, name, kRawContainer)};
+  return toRawFiles(packed, std::move(bytes), name, kRawContainer);
 }
 
 Table tableFromImages(PackedTable packed, std::vector<Image> images, const std::string& name) {

@@ -25,8 +25,8 @@ Image stackedImage(const PackedTable& packed);
 /// not fit them.
 std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed);
 
-/// Each returns the file `name`, and where the format has no place for metadata a sidecar. Exceptions of the
-/// containers pass through.
+/// Each returns the file `name`, and where the format has no place for metadata a sidecar for every file,
+/// with their checksums. Exceptions of the containers pass through.
 std::vector<ExportFile> toKtx2Files(const PackedTable& packed, Ktx2Compression compression,
                                     const std::string& name);
 /// kDx10: one file, an array or a volume. kLegacy, which has no arrays: "x.dds" becomes "x-1.dds", "x-2.dds",
@@ -45,6 +45,9 @@ std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string&
 std::vector<ExportFile> toNpyFiles(const PackedTable& packed, const std::string& name);
 /// The textures one after the other, nothing else.
 std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string& name);
+/// Bytes of an engine's own form, with a sidecar.
+std::vector<ExportFile> toRawFiles(const PackedTable& packed, std::string bytes, const std::string& name,
+                                   const std::string& container);
 
 /// The inverses, `packed` being what packedFromMetadata said. InputError with `name` where the file does not
 /// fit it.

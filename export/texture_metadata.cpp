@@ -16,7 +16,7 @@ constexpr const char* kFormat = "ltc-texture";
 constexpr int kVersion = 1;
 // A table has 11 channels at most.
 constexpr std::size_t kMaxTextures = 16;
-constexpr std::string_view kLineStart = "ltcfit-metadata: ";
+constexpr std::string_view kLineStart = "ltcfit-metadata:";
 
 Json coordinates(const TableInfo& info) {
   const std::vector<Axis>& axes = info.axes;
@@ -56,6 +56,8 @@ PackedTable read(const Json& json) {
   int exponent = 0;
   if (!(packed.scale > 0.0) || packed.scale > 65536.0 || std::frexp(packed.scale, &exponent) != 0.5)
     throw InputError("matrix.scale is not a power of two up to 65536");
+  if (packed.info.normalization != normalizationOf(packed.packing.divisor))
+    throw InputError("matrix.normalization and matrix.divided_by contradict each other");
   const std::string precision = file.text("precision");
   if (precision != "float32" && precision != "float16")
     throw InputError("precision '" + precision + "' is not known (float32, float16)");
@@ -67,12 +69,14 @@ PackedTable read(const Json& json) {
   if (packed.packing.textures.size() > kMaxTextures)
     throw InputError(fmt::format("textures: more than {}", kMaxTextures));
   if (file.has("files")) {
-    packed.files = file.texts("files");
-    if (packed.files.size() > kMaxTextures)
-      throw InputError(fmt::format("files: more than {}", kMaxTextures));
-    for (const std::string& name : packed.files) {
-      if (name.empty() || name.find_first_of("/\\") != std::string::npos)
+    for (const Json& entry : file.array("files")) {
+      const JsonFields fields(entry, fmt::format("files[{}]", packed.files.size()));
+      const std::string name = fields.text("name");
+      if (name.empty() || name.find_first_of("/\\") != std::string::npos ||
+          name.find('\0') != std::string::npos)
         throw InputError("files: '" + name + "' is not the name of a file in the same folder");
+      packed.files.emplace_back(name, fields.text("checksum"));
+      if (packed.files.size() > kMaxTextures) throw InputError("files: more than a table has");
     }
   }
   if (file.has("container")) packed.container = file.text("container");
@@ -98,7 +102,7 @@ Json metadataJson(const PackedTable& packed, const std::string& container) {
     const Image& image = packed.images[0];
     json["texture_size"] = {image.width, image.height, image.depth};
   }
-  if (!packed.files.empty()) json["files"] = packed.files;
+  for (const auto& [name, sum] : packed.files) json["files"].push_back({{"name", name}, {"checksum", sum}});
   json["container"] = container;
   json["coordinates"] = coordinates(info);
   json["channels"] = {{"norm", "directional albedo n_D"},
@@ -109,18 +113,16 @@ Json metadataJson(const PackedTable& packed, const std::string& container) {
   json["alpha_floor"] = info.alphaFloor;
   json["provenance"] = provenanceToJson(info.provenance);
   if (packed.precision == Precision::kHalf) {
-    double shift = 0.0;
-    double detError = 0.0;
-    for (const HalfNode& node : packed.half.nodes) {
-      shift = std::fmax(shift, node.shift);
-      detError = std::fmax(detError, node.detError);
-    }
+    const HalfReport& half = packed.half;
     json["rounding"] = {
-        {"rule", "per node the halves whose lobe is closest; diagonal normal, determinant within 1 %"},
-        {"nodes_not_nearest", packed.half.moved},
-        {"nodes_bounded", packed.half.constrained},
-        {"largest_lobe_shift_rad", shift},
-        {"largest_determinant_error", detError}};
+        {"rule",
+         "per node the halves whose lobe is closest; diagonals normal, signs kept, determinants within 1 %"},
+        {"nodes_not_nearest", half.moved},
+        {"nodes_bounded", half.constrained},
+        {"determinants_hold_from_alpha", half.alphaFloor},
+        {"nodes_below_that", half.beyond},
+        {"largest_lobe_shift_rad", half.largestShift},
+        {"largest_determinant_error", half.largestDetError}};
   }
   return json;
 }
@@ -137,8 +139,9 @@ std::string textureMetadata(const PackedTable& packed, const std::string& contai
 
 std::string metadataLine(const PackedTable& packed, const std::string& container) {
   std::string line(kLineStart);
+  line += ' ';
   // JSON may write a slash as "\/", and no comment begins or ends with that
-  for (char c : metadataJson(packed, container).dump())
+  for (char c : metadataJson(packed, container).dump(-1, ' ', true))
     line += c == '/' ? std::string("\\/") : std::string(1, c);
   return line;
 }
@@ -146,10 +149,27 @@ std::string metadataLine(const PackedTable& packed, const std::string& container
 std::optional<std::string> metadataOfSource(std::string_view text) {
   const std::size_t at = text.rfind(kLineStart);
   if (at == std::string_view::npos) return std::nullopt;
-  const std::size_t start = at + kLineStart.size();
-  const std::string_view line = text.substr(start, text.find('\n', start) - start);
-  const std::size_t end = line.rfind('}');
-  return std::string(line.substr(0, end == std::string_view::npos ? 0 : end + 1));
+  // a formatter may have broken the comment at blanks: line ends and what begins a line of a comment are one
+  // blank
+  std::string line;
+  const std::string_view rest = text.substr(at + kLineStart.size());
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (rest[i] != '\n') {
+      line += rest[i];
+      continue;
+    }
+    i = std::min(rest.find_first_not_of(" \t\r\n", i), rest.size());
+    if (rest.substr(i, 2) == "//") i += 2;
+    if (rest.substr(i, 1) == "*" && rest.substr(i, 2) != "*/") ++i;
+    i = std::min(rest.find_first_not_of(" \t\r\n", i), rest.size()) - 1;
+    while (line.ends_with(' ') || line.ends_with('\r')) line.pop_back();
+    line += ' ';
+  }
+  // a slash within the JSON has a backslash before it
+  const std::size_t end = std::min(line.find("*/"), line.size());
+  const std::size_t open = std::min(line.find_first_not_of(' '), end);
+  const std::size_t brace = std::string_view(line).substr(0, end).rfind('}');
+  return brace == std::string::npos || brace < open ? std::string() : line.substr(open, brace + 1 - open);
 }
 
 std::vector<std::string> describeTextures(const PackedTable& packed) {
@@ -197,7 +217,16 @@ std::vector<std::string> describeTextures(const PackedTable& packed) {
 }
 
 bool isTextureMetadata(std::string_view text) {
-  return text.substr(0, 64).find("\"ltc-texture\"") != std::string_view::npos;
+  if (text.find(kFormat) == std::string_view::npos) return false;
+  bool is = false;
+  try {
+    readJson(text, "", [&](const Json& json) {
+      is = json.is_object() && json.contains("format") && json["format"] == kFormat;
+    });
+  } catch (const InputError&) {
+    is = true;  // damaged, which the reader will say
+  }
+  return is;
 }
 
 PackedTable packedFromMetadata(std::string_view text, const std::string& name) {

@@ -20,6 +20,13 @@ Table resampled(const Table& table, std::vector<Axis> axes) {
   TableInfo info = table.info();
   if (axes.size() != info.axes.size())
     throw std::invalid_argument("the new axes are of another kind than the table's");
+  std::string source;
+  for (const Axis& axis : info.axes) {
+    if (!source.empty()) source += " x ";
+    source += std::to_string(axis.size()) + " " + axis.name + " " + std::string(axisMapName(axis.map));
+  }
+  info.provenance.options.emplace_back("interpolated_from", source);
+  if (!info.provenance.command.empty()) info.provenance.command += ", then interpolated at other nodes";
   info.axes = std::move(axes);
   std::size_t nodes = 1;
   for (const Axis& axis : info.axes) nodes *= axis.size();

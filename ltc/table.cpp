@@ -71,7 +71,7 @@ void validateAxis(const Axis& axis, const AxisRange& range) {
     const bool end = i == 0 || i + 1 == v.size();
     const double slack = end ? 1.0 - kTexelSlack : kTexelSlack;
     if (v[i] < axis.low - kRangeSlack || v[i] > axis.high + kRangeSlack ||
-        std::abs(axis.texelFromValue(v[i]) - static_cast<double>(i)) > slack) {
+        !(std::abs(axis.texelFromValue(v[i]) - static_cast<double>(i)) <= slack)) {
       fail(where + " values[" + std::to_string(i) + "] is not where its map '" +
            std::string(axisMapName(axis.map)) + "' puts it");
     }

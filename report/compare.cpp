@@ -1,10 +1,13 @@
 #include "report/compare.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "ltc/ltc.h"
 
@@ -58,6 +61,23 @@ bool sameNodes(const Table& a, const Table& b) {
       });
 }
 
+// The middle of the cell that begins at a node, as a shader addresses it; nothing at the upper ends.
+std::optional<LobeParameters> cellCentre(const Table& table, const std::vector<std::size_t>& node) {
+  std::array<double, 4> value{};
+  for (std::size_t a = 0; a < node.size(); ++a) {
+    const Axis& axis = table.info().axes[a];
+    if (node[a] + 1 == axis.size()) return std::nullopt;
+    value[a] = axis.valueFromTexel(static_cast<double>(node[a]) + 0.5);
+  }
+  if (table.isIsotropic()) return LobeParameters{value[1], value[1], value[0], 0.0};
+  return LobeParameters{value[0], value[0] * value[1], value[2], value[3]};
+}
+
+bool has(const Table& table, std::string_view channel) {
+  const std::vector<std::string>& c = table.info().channels;
+  return std::find(c.begin(), c.end(), channel) != c.end();
+}
+
 }  // namespace
 
 TableDifference compareTables(const Table& first, const Table& second) {
@@ -68,6 +88,9 @@ TableDifference compareTables(const Table& first, const Table& second) {
   out.sameStorage = out.sameNodes && first.info().stores == second.info().stores &&
                     first.info().normalization == second.info().normalization &&
                     first.info().channels == second.info().channels;
+  for (const char* channel : {"norm", "fresnel"}) {
+    if (has(first, channel) != has(second, channel)) out.oneSided.emplace_back(channel);
+  }
   const std::size_t nodes = first.nodeCount();
   if (out.sameStorage) {
     const std::size_t count = first.channelCount();
@@ -95,6 +118,15 @@ TableDifference compareTables(const Table& first, const Table& second) {
     if (a.norm && b.norm) norm[i] = std::abs(*a.norm - *b.norm);
     if (a.fresnel && b.fresnel) fresnel[i] = std::abs(*a.fresnel - *b.fresnel);
   }
+  std::vector<double> between(nodes, kMissing);
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const std::optional<LobeParameters> p = cellCentre(first, first.node(i));
+    if (!p) continue;
+    const TableEntry a = first.fetch(*p);
+    const TableEntry b = second.fetch(*p);
+    if (a.invertible && b.invertible) between[i] = distance(a.m, b.m);
+  }
   double worst = -1.0;
   for (std::size_t i = 0; i < nodes; ++i) {
     out.singular += std::isnan(sw1[i]) ? 1 : 0;
@@ -104,6 +136,7 @@ TableDifference compareTables(const Table& first, const Table& second) {
     }
   }
   out.sw1 = summarize(sw1);
+  out.between = summarize(between);
   out.norm = summarize(norm);
   out.fresnel = summarize(fresnel);
   return out;

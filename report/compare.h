@@ -20,17 +20,20 @@ struct TableDifference {
   bool sameNodes = false;    ///< the axes have the same nodes: the second table was not interpolated
   bool sameStorage = false;  ///< and both store the same channels of the same matrix, scaled alike
   std::vector<ChannelDifference> channels;  ///< where sameStorage
-  Summary sw1;   ///< over the first table's nodes: distance between the two lobes, 0..2
-  Summary norm;  ///< |difference|; count 0 where a table has no such channel
+  Summary sw1;      ///< over the first table's nodes: distance between the two lobes, 0..2
+  Summary between;  ///< the same in the middle of the first table's cells, both fetched
+  Summary norm;     ///< |difference|; count 0 where a table has no such channel
   Summary fresnel;
-  std::size_t singular = 0;   ///< nodes at which one of the two has no inverse: in no summary
-  std::size_t worstNode = 0;  ///< of sw1, in the first table
+  std::vector<std::string> oneSided;  ///< norm or fresnel, where only one of the two tables has it
+  std::size_t singular = 0;           ///< nodes at which one of the two has no inverse: in no summary
+  std::size_t worstNode = 0;          ///< of sw1, in the first table
 };
 
-/// Compares at the nodes of the first table. The distance is the sliced Wasserstein one between the two LTCs:
-/// 256 directions of each, 16 projections, the same for both, so that equal lobes have distance 0 and the
-/// same lobe under another matrix (turned about z from the right) a small one, at most 0.02 of its width.
-/// Throws std::invalid_argument where one is isotropic and the other anisotropic. Independent of threads.
+/// Compares at the nodes of the first table and between them. The distance is the sliced Wasserstein one
+/// between the two LTCs: 256 directions of each, 16 projections, the same for both, so that equal lobes have
+/// distance 0 and the same lobe under another matrix (turned about z from the right) a small one, at most
+/// 0.02 of its width. Throws std::invalid_argument where one is isotropic and the other anisotropic.
+/// Independent of threads.
 TableDifference compareTables(const Table& first, const Table& second);
 
 }  // namespace ltcfit

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <stdexcept>
 
 #include "export/little_endian.h"
 #include "export/packing.h"
@@ -78,6 +77,7 @@ TEST(HalfMatrix, BoundsHoldAndTheLobeIsCloserThanByNearestNumbers) {
       const Eigen::Matrix3d m =
           isotropic ? Eigen::Matrix3d(entry.mInv / entry.mInv(1, 1)) : Eigen::Matrix3d(1024 * entry.m);
       const HalfRounding r = roundToHalf(m, stores, free);
+      if (r.constrained && nearest(m).diagonal().cwiseAbs().minCoeff() < kSmallestNormal) continue;  // below
       EXPECT_LE(std::abs(r.matrix.determinant() / m.determinant() - 1.0), 0.01) << i;
       for (int d = 0; d < 3; ++d) {
         EXPECT_GE(std::abs(r.matrix(d, d)), kSmallestNormal) << i;
@@ -94,28 +94,75 @@ TEST(HalfMatrix, BoundsHoldAndTheLobeIsCloserThanByNearestNumbers) {
   }
 }
 
-// The neighbourhood of the nearest halves breaks the bounds there: the smallest alphas at 90 degrees.
-TEST(HalfMatrix, OutOfReachOfTheNearestHalves) {
-  const Table table = readTable(LTCFIT_DATA_DIR "/ltc_iso.json");
-  for (std::size_t a : {0u, 1u, 2u}) {
-    const Eigen::Matrix3d mInv = table.entry(std::vector<std::size_t>{63, a}).mInv;
-    const Eigen::Matrix3d m = mInv / mInv(1, 1);
-    EXPECT_LT(nearest(m).diagonal().cwiseAbs().minCoeff(), kSmallestNormal);
-    const HalfRounding r = roundToHalf(m, MatrixStorage::kMinv, kPlane);
-    EXPECT_TRUE(r.constrained);
-    EXPECT_LE(r.detError, kHalfDeterminantLimit);
-    // a quarter of a degree; at grazing view only, on lobes narrower than that
-    EXPECT_LT(r.shift, 5e-3);
-    EXPECT_LT(shift(r.matrix.inverse(), mInv.inverse()), 6e-3);
+// Entries keep their sign, so that no determinant changes it between nodes; zeros stay zero.
+TEST(HalfMatrix, SignsAreKept) {
+  Eigen::Matrix3d m;
+  m << 1.16e-6, 0, 9.5e-4, 0, 1, 0, -1.62e-6, 0, 3.1e-5;
+  const Eigen::Matrix3d neighbours[] = {m * 30.0, m + 1e-3 * Eigen::Matrix3d::Identity()};
+  const HalfRounding r = roundToHalf(m, MatrixStorage::kMinv, kPlane, neighbours);
+  EXPECT_TRUE(r.constrained);
+  for (int k = 0; k < 9; ++k) {
+    EXPECT_GE(r.matrix(k / 3, k % 3) * m(k / 3, k % 3), 0.0);
+    if (m(k / 3, k % 3) == 0.0) {
+      EXPECT_EQ(r.matrix(k / 3, k % 3), 0.0);
+    }
+  }
+  EXPECT_GE(r.matrix.diagonal().minCoeff(), kSmallestNormal);
+}
+
+// What a shader fetches of the halves: the lobes between the nodes, and no determinant of another sign, which
+// would be black. The last interval of theta and the smallest alphas, where diagonals had to be lifted.
+TEST(HalfTable, BetweenNodesLobesStay) {
+  for (const char* kind : {"ltc_iso.json", "ltc_aniso.json"}) {
+    const Table table = readTable(std::string(LTCFIT_DATA_DIR) + "/" + kind);
+    const Packing packing = table.isIsotropic() ? packing2017() : packingOfRows();
+    const Table exact = unpack(pack(table, packing, Precision::kFloat));
+    const Table rounded = unpack(pack(table, packing, Precision::kHalf));
+    double corner = 0.0;
+    double worst = 0.0;
+    double elsewhere = 0.0;
+    int points = 0;
+    for (int i = 0; i <= 80; ++i) {
+      for (int j = 0; j <= 80; ++j) {
+        const double alpha = std::pow(0.12 * j / 80.0, 2.0) + 1e-6;
+        const double lambda = table.isIsotropic() ? 1.0 : std::fmod(j * 0.618, 1.0);
+        const double theta = (88.2 + 1.8 * i / 80.0) * std::numbers::pi / 180.0;
+        const LobeParameters p{alpha, alpha * lambda, theta, std::fmod(i * 0.7, 1.5)};
+        const TableEntry a = exact.fetch(p);
+        const TableEntry b = rounded.fetch(p);
+        ASSERT_GT(b.mInv.determinant() * a.mInv.determinant(), 0.0) << alpha << " " << theta;
+        corner += shift(a.m, b.m);
+        worst = std::max(worst, shift(a.m, b.m));
+        ++points;
+        const LobeParameters q{0.01 + 0.99 * j / 80.0, (0.01 + 0.99 * j / 80.0) * lambda, 1.5 * i / 80.0,
+                               p.phi};
+        elsewhere = std::max(elsewhere, shift(exact.fetch(q).m, rounded.fetch(q).m));
+      }
+    }
+    std::printf("%s: corner mean %.2g, max %.2g; elsewhere max %.2g\n", kind, corner / points, worst,
+                elsewhere);
+    // measured 0.0011 and 0.036 for the isotropic table; 2e-4 is an ulp of halves about 1/4
+    EXPECT_LT(corner / points, 0.003);
+    EXPECT_LT(worst, 0.05);
+    EXPECT_LT(elsewhere, 5e-4);
   }
 }
 
-TEST(HalfMatrix, WhatNoHalfCanHoldIsRefused) {
-  Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
-  m(0, 0) = 1e-9;
-  EXPECT_THROW(
-      roundToHalf(m, MatrixStorage::kMinv, {true, false, false, false, false, false, false, false, true}),
-      std::invalid_argument);
+TEST(HalfTable, SaysFromWhichAlphaOnDeterminantsHold) {
+  const Table table = readTable(LTCFIT_DATA_DIR "/ltc_iso.json");
+  const PackedTable packed = pack(table, packing2017(), Precision::kHalf);
+  const Table rounded = unpack(packed);
+  EXPECT_LE(packed.half.alphaFloor, 1.1e-3);
+  for (std::size_t i = 0; i < table.nodeCount(); ++i) {
+    const auto node = table.node(i);
+    const Eigen::Matrix3d m = table.entry(node).mInv / table.entry(node).mInv(1, 1);
+    const Eigen::Matrix3d r = rounded.entry(node).mInv;
+    EXPECT_GE(r.diagonal().cwiseAbs().minCoeff(), kSmallestNormal);
+    if (table.parameters(node).alphaX >= packed.half.alphaFloor) {
+      EXPECT_LE(std::abs(r.determinant() / m.determinant() - 1.0), 0.01) << i;
+    }
+  }
+  EXPECT_LT(packed.half.largestShift, 0.01);
 }
 
 // What users report of the half table of 2017: lost determinants, zeros and subnormals. Ours of the same
@@ -126,7 +173,8 @@ TEST(HalfMatrix, ThePublishedTableMadeSafe) {
     GTEST_SKIP() << "the published tables are not at " << folder << " (LTCFIT_REFERENCE_DIR)";
   const Table exact = readTable(folder / "ltc2017-1.npy");
   const Table theirs = readTable(folder / "ltc2017-1.dds");
-  const Table ours = unpack(pack(exact, packing2017(), Precision::kHalf));
+  const PackedTable packed = pack(exact, packing2017(), Precision::kHalf);
+  const Table ours = unpack(packed);
   const auto faults = [&](const Table& table, double floor) {
     int count = 0;
     for (std::size_t i = 0; i < table.nodeCount(); ++i) {
@@ -139,9 +187,13 @@ TEST(HalfMatrix, ThePublishedTableMadeSafe) {
     }
     return count;
   };
-  std::printf("faults: theirs %d, ours %d\n", faults(theirs, 0.0), faults(ours, 0.0));
-  EXPECT_GT(faults(theirs, 0.0), 20);
-  EXPECT_EQ(faults(ours, 0.0), 0);
+  const double floor = packed.half.alphaFloor;
+  std::printf("faults: theirs %d, from alpha %g on %d; ours %d, %d\n", faults(theirs, 0.0), floor,
+              faults(theirs, floor), faults(ours, 0.0), faults(ours, floor));
+  EXPECT_EQ(faults(theirs, 0.0), 99);
+  EXPECT_LE(faults(ours, 0.0), 4);  // determinants at the four sharpest nodes of 90 degrees
+  EXPECT_EQ(faults(ours, floor), 0);
+  EXPECT_LT(floor, 0.005);
 }
 
 }  // namespace

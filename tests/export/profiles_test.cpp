@@ -70,7 +70,7 @@ TEST(Profiles, EveryOneIsReadBackByName) {
     const Folder folder;
     const Table back = readTable(folder.write(result.files));
     ASSERT_EQ(back.info().axes.size(), table.info().axes.size()) << profile.name;
-    EXPECT_EQ(back.info().provenance.command, table.info().provenance.command) << profile.name;
+    EXPECT_TRUE(back.info().provenance.command.starts_with(table.info().provenance.command)) << profile.name;
     // the lobes, where the nodes are the same: not whole numbers of ulps, since M is inverted and scaled
     if (back.nodeCount() != table.nodeCount()) continue;
     for (std::size_t i = 0; i < table.nodeCount(); i += 7) {
@@ -186,13 +186,10 @@ TEST(Profiles, ATableOfOtherNodesIsRefusedWithTheCommandForTheRightOne) {
 }
 
 TEST(Profiles, PlayCanvasWarnsOutsideOfItsRanges) {
-  EXPECT_EQ(exported("playcanvas", isoTable()).warnings.size(),
-            1u);  // norm at alpha 1, normal view: 0.306853
-  TableInfo info = isoTable().info();
+  // norm is 0.306853 at alpha 1 and normal view: below the range by less than 8 bits show
+  EXPECT_TRUE(exported("playcanvas", isoTable()).warnings.empty());
+  const TableInfo info = isoTable().info();
   std::vector<float> data = isoTable().data();
-  data[info.channels.size() * 5] = 1.0f;  // m00 of a sharp lobe: nothing that leaves a range
-  for (std::size_t i = 5; i < data.size(); i += 7) data[i] = std::max(data[i], 0.31f);
-  EXPECT_TRUE(exported("playcanvas", Table(info, data)).warnings.empty());
   data[5] = 0.1f;
   EXPECT_EQ(exported("playcanvas", Table(info, data)).warnings.size(), 1u);
 }

@@ -15,13 +15,19 @@ Image image() {
   Image out;
   out.width = 3;
   out.height = 2;
-  for (int i = 0; i < 24; ++i) out.values.push_back(0.5f + 0.001f * static_cast<float>(i));
+  for (int i = 0; i < 24; ++i)
+    out.values.push_back((i % 4 == 1 ? -0.25f : i % 4 == 2 ? 0.125f : 0.5f) + 0.001f * static_cast<float>(i));
   return out;
 }
 
 TEST(PublishedTable, MeaningOfThe2017Layout) {
   const Image first = image();
-  const Table table = tableFrom2017(first, &first, "a");
+  Image second = first;
+  for (std::size_t i = 0; i < second.values.size(); i += 4) {
+    second.values[i + 1] = 0.25f;
+    second.values[i + 2] = 0.0f;
+  }
+  const Table table = tableFrom2017(first, &second, "a");
   const TableEntry e = table.entry(std::vector<std::size_t>{1, 2});
   const std::size_t texel = (1 * 3 + 2) * 4;
   EXPECT_FLOAT_EQ(static_cast<float>(e.mInv(0, 0)), first.values[texel]);
@@ -32,6 +38,21 @@ TEST(PublishedTable, MeaningOfThe2017Layout) {
   EXPECT_FLOAT_EQ(static_cast<float>(*e.norm), first.values[texel]);
   EXPECT_EQ(table.parameters(std::vector<std::size_t>{1, 0}).theta, 1.57);
   EXPECT_EQ(table.parameters(std::vector<std::size_t>{1, 0}).alphaX, 1e-5);
+}
+
+// Other layouts in textures of the same size must not pass for it: O3DE's, Godot's, swapped or doubled
+// textures.
+TEST(PublishedTable, OtherLayoutsAreRefused) {
+  const Image first = image();
+  EXPECT_NO_THROW(tableFrom2017(first, nullptr, "a"));
+  EXPECT_THROW(tableFrom2017(first, &first, "a"), InputError);
+  Image turned = first;
+  for (std::size_t i = 0; i < turned.values.size(); i += 4)
+    std::swap(turned.values[i + 1], turned.values[i + 3]);
+  EXPECT_THROW(tableFrom2017(turned, nullptr, "a"), InputError);
+  Image mirrored = first;
+  for (std::size_t i = 0; i < mirrored.values.size(); i += 4) mirrored.values[i + 3] *= -1.0f;
+  EXPECT_THROW(tableFrom2017(mirrored, nullptr, "a"), InputError);
 }
 
 TEST(PublishedTable, SecondTextureAloneIsTold) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -178,7 +179,9 @@ std::string withoutLastLine(const std::string& text) {
 // 64 x 64 texels in the layout of 2017, of PlayCanvas or Babylon.js.
 Sample engineBinary(bool playCanvas) {
   std::vector<float> values(std::size_t{64} * 64 * 8);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 0.125f + static_cast<float>(i % 97) / 128.0f;
+  constexpr std::array<float, 8> kTexel{1.0f, -0.25f, 0.5f, 0.75f, 0.875f, 0.25f, 0.0f, 0.5f};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = kTexel[playCanvas ? i % 4 + (i < values.size() / 2 ? 0 : 4) : i % 8];
   std::string bytes;
   if (playCanvas) append(bytes, std::uint32_t{0x00010000});
   appendValues(bytes, values, playCanvas ? Precision::kFloat : Precision::kHalf);
@@ -472,11 +475,11 @@ TEST(RobustnessOf, TexturesAreFew) {
 }
 
 TEST(RobustnessOf, SourceThatLostAnArrayIsRefused) {
-  const std::string four = "const LTC_MAT_1 = [1,2,3,4, 1,2,3,4, 1,2,3,4, 1,2,3,4];\n";
-  const std::string two = "const LTC_MAT_2 = [1,2, 1,2, 1,2, 1,2];\n";
+  const std::string four = "const LTC_MAT_1 = [1,0,2,4, 1,0,2,4, 1,0,2,4, 1,0,2,4];\n";
+  const std::string two = "const LTC_MAT_2 = [1,.2, 1,.2, 1,.2, 1,.2];\n";
   EXPECT_TRUE(tableFromSource(four + two, "T"));
   for (const std::string& text :
-       {four, four + "const LTC_MAT_2 = [1,2, 1,2", four + "const LTC_MAT_2 = [1,2, 1,x];",
+       {four, four + "const LTC_MAT_2 = [1,.2, 1,.2", four + "const LTC_MAT_2 = [1,.2, 1,x];",
         four + "const LTC_MAT_2 = [1e999,2];", four + two + "/* ltcfit-met",
         four + two + "// ltcfit-metadata: ", four + two + "export const LTC_INFO = {",
         "\n#ifndef A\n" + four + two}) {

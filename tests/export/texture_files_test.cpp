@@ -130,6 +130,58 @@ TEST(Exr, ChannelsAreNamedAfterCoefficients) {
   }
 }
 
+// A sidecar that lies beside another file than its own, as after a copy or a half-finished export.
+TEST(Metadata, MustBeThoseOfTheFile) {
+  char name[] = "/tmp/ltcfit-test-XXXXXX";
+  const std::filesystem::path folder = ::mkdtemp(name);
+  const auto write = [&](const std::string& file, const std::string& bytes) {
+    std::ofstream(folder / file, std::ios::binary) << bytes;
+  };
+  const Table iso = readTable(LTCFIT_DATA_DIR "/ltc_iso.json");
+  FormatOptions legacy;
+  legacy.ddsHeader = DdsHeader::kLegacy;
+  const std::vector<ExportFile> files = exportTable(iso, *findFormat("dds"), legacy, "t.dds").files;
+  ASSERT_EQ(files.size(), 4u);  // t-1.dds, t-2.dds and a description for each
+  for (const ExportFile& file : files) write(file.name, file.bytes);
+  EXPECT_EQ(readTable(folder / "t-1.dds").data(), readTable(folder / "t-2.dds").data());
+  // renamed, with its description: the second file is found by name, and is the right one
+  write("moved.dds", files[0].bytes);
+  write("moved.dds.json", files[2].bytes);
+  EXPECT_EQ(readTable(folder / "moved.dds").data(), readTable(folder / "t-1.dds").data());
+  // another file under the name of the second
+  write("t-2.dds", files[0].bytes);
+  EXPECT_THROW(readTable(folder / "t-1.dds"), InputError);
+  EXPECT_THROW(readTable(folder / "moved.dds"), InputError);
+  std::filesystem::remove(folder / "t-2.dds");
+  EXPECT_THROW(readTable(folder / "t-1.dds"), InputError);
+  // the description of another export
+  FormatOptions channels;
+  channels.layout = Layout::kChannels;
+  write("small.npy",
+        exportTable(test::smallTable(), *findFormat("npy"), channels, "small.npy").files[0].bytes);
+  write("small.npy.json", files[2].bytes);
+  EXPECT_THROW(readTable(folder / "small.npy"), InputError);
+  // one that was reformatted is the same
+  const std::string spread = "{" + std::string(5000, '\n') + files[2].bytes.substr(1);
+  write("t-2.dds", files[1].bytes);
+  write("t-1.dds.json", spread);
+  EXPECT_EQ(readTable(folder / "t-1.dds").info().provenance.command, iso.info().provenance.command);
+  std::filesystem::remove_all(folder);
+}
+
+// Comments of headers are rewrapped by formatters.
+TEST(Metadata, SurviveAFormatter) {
+  const Table table = readTable(LTCFIT_DATA_DIR "/ltc_aniso.json");
+  std::string header = exportTable(table, *findFormat("h"), {}, "t").files[0].bytes;
+  const std::size_t line = header.rfind("ltcfit-metadata: ");
+  for (std::size_t at = line; (at = header.find(' ', at)) != std::string::npos; at += 60) {
+    if (at > header.size() - 8) break;
+    header.replace(at, 1, "\n * ");
+  }
+  EXPECT_EQ(metadataOfSource(header),
+            metadataOfSource(exportTable(table, *findFormat("h"), {}, "t").files[0].bytes));
+}
+
 TEST(Metadata, OfAnotherFileIsRefused) {
   const Table table = test::smallTable();
   const PackedTable packed = pack(table, packing2017(), Precision::kFloat);
@@ -152,8 +204,11 @@ TEST(Metadata, OfAnotherFileIsRefused) {
                                  {"\"axes\"", "\"axe\""}}) {
     EXPECT_THROW(packedFromMetadata(with(from, to), "m"), InputError) << from;
   }
-  EXPECT_THROW(packedFromMetadata(with("\"container\"", "\"files\": [\"../x\"], \"container\""), "m"),
-               InputError);
+  EXPECT_THROW(
+      packedFromMetadata(
+          with("\"container\"", "\"files\": [{\"name\": \"../x\", \"checksum\": \"0\"}], \"container\""),
+          "m"),
+      InputError);
   EXPECT_THROW(tableFromNumbers(packedFromMetadata(good, "m"), std::vector<float>(95), "m"), InputError);
   EXPECT_THROW(tableFromNumbers(packedFromMetadata(good, "m"), std::vector<float>(97), "m"), InputError);
 }
