@@ -31,6 +31,8 @@ std::string describe(const Table& table) {
   for (const Axis& axis : info.axes)
     text += fmt::format("{}{} {}{}", text.empty() ? "" : " x ", axis.size(), axis.name,
                         axis.map == AxisMap::kNone ? "" : fmt::format(" ({})", axisMapName(axis.map)));
+  const std::string& tool = info.provenance.tool;
+  if (!tool.empty() && tool != "ltcfit") text += "; " + tool;
   return fmt::format("{}; {}, {}; {}", text, matrixStorageName(info.stores),
                      matrixNormalizationName(info.normalization), fmt::join(info.channels, " "));
 }

@@ -225,7 +225,8 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
       ->type_name("PATH");
   command
       ->add_option("--format", a->format,
-                   "h, hlsl, glsl, dds, exr, json, npy, ktx2, js, bin [by the output's name, else h]")
+                   "h, hlsl, glsl, dds, exr, json, npy, ktx2, js, bin [by the output's name; h where it has "
+                   "no extension]")
       ->type_name("NAME");
   command
       ->add_option(

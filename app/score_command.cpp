@@ -50,7 +50,9 @@ std::string describe(const Table& table) {
   std::string size;
   for (const Axis& axis : table.info().axes)
     size += fmt::format("{}{}", size.empty() ? "" : " x ", axis.size());
-  return fmt::format("{}, stores {}", size, matrixStorageName(table.info().stores));
+  const std::string& tool = table.info().provenance.tool;
+  return fmt::format("{}, stores {}{}", size, matrixStorageName(table.info().stores),
+                     tool == "ltcfit" || tool.empty() ? "" : "; " + tool);
 }
 
 std::string number(double v) {

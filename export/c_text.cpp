@@ -64,7 +64,7 @@ std::string axisFormula(const Axis& axis) {
     case AxisMap::kNone:
       break;
   }
-  return "search the node values below";
+  return "search the node values";
 }
 
 std::string valuesComment(const Axis& axis) {

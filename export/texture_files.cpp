@@ -152,14 +152,12 @@ std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string&
   for (const TextureSpec& texture : packed.packing.textures)
     contents += fmt::format("{}{} = ({})", contents.empty() ? "" : ", ", texture.name,
                             fmt::join(texture.components, ", "));
-  file.attributes = {
-      {kMetadataKey, textureMetadata(packed, layout)},
-      {"ltcContents", contents},
-      {"ltcLayout", layout},
-      {"ltcMatrix", fmt::format("{} over {}, times {}, m{{row}}{{column}}", matrixStorageName(info.stores),
-                                divisorName(packed.packing.divisor), packed.scale)},
-      {"ltcCommand", info.provenance.command},
-      {"comments", "Linearly Transformed Cosines for GGX; not colours: no colour management"}};
+  file.attributes = {{kMetadataKey, textureMetadata(packed, layout)},
+                     {"ltcContents", contents},
+                     {"ltcLayout", layout},
+                     {"ltcMatrix", matrixText(packed)},
+                     {"ltcCommand", info.provenance.command},
+                     {"comments", "Linearly Transformed Cosines for GGX; not colours: no colour management"}};
   for (const Axis& axis : info.axes) file.attributes.emplace_back("ltcAxis_" + axis.name, axisFormula(axis));
   return {{name, channelsToExr(file)}};
 }

@@ -172,6 +172,18 @@ std::optional<std::string> metadataOfSource(std::string_view text) {
   return brace == std::string::npos || brace < open ? std::string() : line.substr(open, brace + 1 - open);
 }
 
+std::string matrixText(const PackedTable& packed) {
+  std::string divisor;
+  if (packed.packing.divisor == Divisor::kThirdColumn) {
+    divisor = ", divided by the length of its third column";
+  } else if (packed.packing.divisor != Divisor::kNone) {
+    divisor = fmt::format(", divided by {}", divisorName(packed.packing.divisor));
+  }
+  return fmt::format("{}{}{}, m{{row}}{{column}}, times column vectors",
+                     packed.info.stores == MatrixStorage::kM ? "M" : "Minv, the inverse of M", divisor,
+                     packed.scale == 1.0 ? "" : fmt::format(", times {}", packed.scale));
+}
+
 std::vector<std::string> describeTextures(const PackedTable& packed) {
   const TableInfo& info = packed.info;
   const bool isotropic = info.axes.size() == 2;
@@ -179,17 +191,10 @@ std::vector<std::string> describeTextures(const PackedTable& packed) {
       fmt::format("Linearly Transformed Cosines for {} GGX (height-correlated Smith, F = 1).",
                   isotropic ? "isotropic" : "anisotropic"),
       originText(info.provenance), ""};
-  lines.push_back(
-      fmt::format("Matrix: {}{}{}, m{{row}}{{column}}, times column vectors; {}.",
-                  info.stores == MatrixStorage::kM ? "M" : "Minv, the inverse of M",
-                  packed.packing.divisor == Divisor::kNone
-                      ? ""
-                      : fmt::format(", divided by {}", packed.packing.divisor == Divisor::kThirdColumn
-                                                           ? "the length of its third column"
-                                                           : divisorName(packed.packing.divisor)),
-                  packed.scale == 1.0 ? "" : fmt::format(", times {}", packed.scale),
-                  info.stores == MatrixStorage::kM ? "invert it after interpolation"
-                                                   : "it takes light vectors to the clamped cosine"));
+  lines.push_back(fmt::format("Matrix: {}; {}.", matrixText(packed),
+                              info.stores == MatrixStorage::kM
+                                  ? "invert it after interpolation"
+                                  : "it takes light vectors to the clamped cosine"));
   for (std::size_t t = 0; t < packed.packing.textures.size(); ++t) {
     const TextureSpec& texture = packed.packing.textures[t];
     lines.push_back(fmt::format("{}: ({})", texture.name, fmt::join(texture.components, ", ")));

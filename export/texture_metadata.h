@@ -33,6 +33,9 @@ std::string metadataLine(const PackedTable& packed, const std::string& container
 /// is cut off.
 std::optional<std::string> metadataOfSource(std::string_view text);
 
+/// "Minv, the inverse of M, divided by m11, m{row}{column}, times column vectors" and the like.
+std::string matrixText(const PackedTable& packed);
+
 /// Lines that tell a reader of source code what the arrays hold: origin, matrix, components, coordinates,
 /// nodes. None ends a comment.
 std::vector<std::string> describeTextures(const PackedTable& packed);

@@ -103,6 +103,9 @@ expect "ltcfit fit iso --size 32x32 --axes 2016" export good.json -o x --profile
 expect "ltcfit fit aniso" export good.json -o x.h --profile anisotropic-2022 --resample
 expect "is a file" export good.json -o good.json --profile godot --resample
 expect "no/such" export good.json -o no/such --profile godot --resample
+expect "what format?" export good.json -o x.png
+expect "--report needs" export good.json -o x.dds --report
+expect "fits none of the profiles" export good.json -o engines --profile all
 expect "a table to read is required" export -o x.h
 expect "--tolerance" compare good.json good.json --tolerance -1
 expect "missing.json" compare good.json missing.json
@@ -113,7 +116,23 @@ expect "cut.dds: not a DDS file, or cut off" score cut.dds
 expect "t.dds.json: describes a texture file" score t.dds.json
 sed 's/"scale": 1.0/"scale": 3.0/' t.dds.json > cut.dds.json; cp t.dds cut.dds
 expect "cut.dds.json: matrix.scale" score cut.dds
+expect "would overwrite this part of the table" export t.dds -o t.dds.json --format json
+cp t.dds.json cut.dds.json; cp good.json cut.dds; "$ltcfit" export -q good.json -o cut.dds --precision half && cp t.dds.json cut.dds.json
+expect "cut.dds.json: describes another file" score cut.dds
 rm t.dds t.dds.json cut.dds cut.dds.json
+# a table without norm and Fresnel: no engine's file, other forms yes
+python3 - <<'PY'
+import json
+t = json.load(open('good.json'))
+t['channels'] = t['channels'][:5]
+t['data'] = [x for i, x in enumerate(t['data']) if i % 7 < 5]
+json.dump(t, open('plain.json', 'w'))
+PY
+expect "needs the channel norm" export plain.json -o x.js --profile three --resample
+"$ltcfit" export -q plain.json -o x.dds && "$ltcfit" score -q x.dds --count 3 >/dev/null || fail "a table without norm"
+"$ltcfit" compare good.json plain.json --tolerance 2 >/dev/null 2>&1
+[ $? -eq 3 ] || fail "no exit 3 where only one table has a norm"
+rm plain.json x.dds x.dds.json
 # profiles of several files: nothing is written over the input
 mkdir folder; "$ltcfit" export -q good.json -o folder --profile selfshadow-dds --resample || fail "selfshadow-dds"
 expect "would overwrite this table" export folder/ltc_1.dds -o folder --profile selfshadow-dds
@@ -166,6 +185,8 @@ expect "unknown command .nonsense." nonsense x
 grep -q "entries are unusable" stderr.txt || fail "no message for unusable entries"
 [ ! -e x.json ] && grep -q ",0$" r.csv || fail "a table was written, or no report"
 rm -f r.csv stderr.txt
+# what goes to a stream is the data alone
+"$ltcfit" export good.json --format json -o /dev/stdout 2>/dev/null | cmp - good.json || fail "notes among the data"
 # compare: equal, different
 "$ltcfit" compare good.json good.json --tolerance 0 >/dev/null || fail "compare of equal tables"
 "$ltcfit" export -q good.json -o h.npy --precision half && "$ltcfit" compare good.json h.npy --tolerance 1e-6 >/dev/null 2>&1
