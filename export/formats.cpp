@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -30,13 +29,11 @@ Packing packingFor(const Table& table, std::string_view format, Layout layout) {
 // What the shaders that we ship (render/shaders) take for granted about the nodes.
 bool isForOurShaders(const Table& table) {
   constexpr double kHalfPi = 0.5 * std::numbers::pi;
-  const auto is = [&](std::size_t a, AxisMap map, double high) {
-    const Axis& axis = table.info().axes[a];
-    return axis.map == map && std::abs(axis.low) < 1e-9 && std::abs(axis.high - high) < 1e-6;
-  };
-  if (table.isIsotropic()) return is(0, AxisMap::kSqrtOneMinusCos, kHalfPi) && is(1, AxisMap::kSqrt, 1.0);
-  return is(0, AxisMap::kLinear, 1.0) && is(1, AxisMap::kLinear, 1.0) && is(2, AxisMap::kLinear, kHalfPi) &&
-         is(3, AxisMap::kLinear, kHalfPi);
+  const std::vector<Axis>& axes = table.info().axes;
+  if (table.isIsotropic())
+    return axes[0].spans(AxisMap::kSqrtOneMinusCos, kHalfPi) && axes[1].spans(AxisMap::kSqrt, 1.0);
+  return axes[0].spans(AxisMap::kLinear, 1.0) && axes[1].spans(AxisMap::kLinear, 1.0) &&
+         axes[2].spans(AxisMap::kLinear, kHalfPi) && axes[3].spans(AxisMap::kLinear, kHalfPi);
 }
 
 // Depth that every WebGL 2 and OpenGL ES 3 device has for volumes.

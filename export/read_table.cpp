@@ -69,7 +69,7 @@ std::vector<Image> readFiles(const PackedTable& packed, const std::string& bytes
     const std::string file = (std::filesystem::path(path).parent_path() / name).string();
     if (!std::filesystem::is_regular_file(file))
       throw InputError(fmt::format("{}: not there, and {} is one of several files", file, path));
-    const std::string other = readFile(file);
+    const std::string other = readFile(file, kMaxTable);
     if (checksum(other) != sum)
       throw InputError(
           fmt::format("{}: does not belong to {} (its checksum is another one than described)", file, path));
@@ -122,7 +122,7 @@ Table tableWithoutMetadata(const Image& image, const std::string& path) {
   }
   const std::string second = secondTexturePath(path);
   if (second.empty()) return tableFrom2017(image, nullptr, path);
-  const Image secondImage = readImage(readFile(second), second);
+  const Image secondImage = readImage(readFile(second, kMaxTable), second);
   return tableFrom2017(image, &secondImage, path);
 }
 

@@ -71,6 +71,12 @@ double Axis::texelFromValue(double value) const {
   return std::clamp(t, 0.0, last);
 }
 
+bool Axis::spans(AxisMap mapping, double upTo) const {
+  // float32 angles, as files hold them
+  constexpr double kRounding = 1e-6;
+  return map == mapping && std::abs(low) < kRounding && std::abs(high - upTo) < kRounding;
+}
+
 double Axis::valueFromTexel(double t) const {
   const double last = static_cast<double>(size() - 1);
   if (map == AxisMap::kNone) {

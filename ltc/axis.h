@@ -39,6 +39,9 @@ struct Axis {
 
   std::size_t size() const { return values.size(); }
 
+  /// Whether its texels are evenly spaced in `mapping` from 0 to `upTo`, up to rounding in a file.
+  bool spans(AxisMap mapping, double upTo) const;
+
   /// Continuous texel coordinate of a physical one, clamped to [0, n - 1].
   double texelFromValue(double value) const;
   /// Its inverse, for t in [0, n - 1].

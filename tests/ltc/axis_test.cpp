@@ -51,5 +51,13 @@ TEST(Axis, TheFloorMovesOnlyTheFirstNode) {
   EXPECT_THROW(makeAxis("alpha", "1", AxisMap::kSqrt, 64, 0.0, 1.0, 0.01), std::invalid_argument);
 }
 
+TEST(Axis, SpansTellsLayoutsApart) {
+  const Axis alpha = makeAxis("alpha", "1", AxisMap::kSqrt, 64, 0.0, 1.0, 1e-4);
+  EXPECT_TRUE(alpha.spans(AxisMap::kSqrt, 1.0));  // the clamped first node does not matter
+  EXPECT_FALSE(alpha.spans(AxisMap::kLinear, 1.0));
+  EXPECT_FALSE(alpha.spans(AxisMap::kSqrt, 0.9));
+  EXPECT_FALSE(makeAxis("alpha", "1", AxisMap::kSqrt, 64, 0.1, 1.0).spans(AxisMap::kSqrt, 1.0));
+}
+
 }  // namespace
 }  // namespace ltcfit
