@@ -139,6 +139,8 @@ int exportProfiles(const ExportArguments& a, const Table& table) {
     throw InputError(fmt::format("--profile {}: not known; there are {}, {}", a.profile,
                                  fmt::join(names, ", "), kAllProfiles));
   }
+  if (a.report && !profile->half)
+    throw InputError(fmt::format("--report: profile {} holds floats", a.profile));
   const bool folder = profile->files.size() > 1;
   const std::filesystem::path path(a.output);
   Written w{folder ? a.output : path.parent_path().string(),
@@ -182,6 +184,8 @@ int exportFormat(const ExportArguments& a, const Table& table) {
   if (a.report && options.precision != Precision::kHalf) throw InputError("--report needs --precision half");
   const std::filesystem::path path(a.output);
   Written w{path.parent_path().string(), exportTable(table, format, options, path.filename().string()), {}};
+  if (isStream(a.output) && w.result.files[0].name != path.filename())
+    throw InputError(a.output + ": this export has several files, which a stream cannot hold");
   placeFiles(a, w);
   writeFiles(a, table, w);
   return kExitOk;

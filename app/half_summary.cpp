@@ -37,11 +37,16 @@ void printHalfSummary(std::FILE* out, const Table& table, const HalfReport& repo
   fmt::print(
       out,
       "half: at {} of {} nodes not the nearest halves, at {} bounded (normal diagonal, determinant); largest "
-      "lobe "
-      "shift {:.2e} rad,\n      determinant error {:.2f} % from alpha {:.4g} (roughness {:.3f}) on",
-      report.moved, report.nodes.size(), report.constrained, report.largestShift,
-      100.0 * report.largestDetError, report.alphaFloor, std::sqrt(report.alphaFloor));
-  if (report.beyond > 0) fmt::print(out, ", above 1 % at {} sharper nodes", report.beyond);
+      "lobe shift {:.2e} rad,\n      ",
+      report.moved, report.nodes.size(), report.constrained, report.largestShift);
+  if (std::isfinite(report.alphaFloor)) {
+    fmt::print(out, "determinant error {:.2f} % from alpha {:.4g} (roughness {:.3f}) on{}",
+               100.0 * report.largestDetError, report.alphaFloor, std::sqrt(report.alphaFloor),
+               report.beyond > 0 ? ", " : "");
+  }
+  if (report.beyond > 0)
+    fmt::print(out, "determinant error above 1 % at {} sharper node{}", report.beyond,
+               report.beyond == 1 ? "" : "s");
   fmt::print(out, "\n");
   if (worst <= 0) return;
   std::vector<HalfNode> nodes = report.nodes;

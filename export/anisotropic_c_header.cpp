@@ -72,7 +72,8 @@ std::string tableToAnisotropicCHeader(const Table& table, const std::string& nam
                    {"amplitude", {"norm", "fresnel"}}}};
   if (!amplitude) packing.textures.pop_back();
   const PackedTable packed = pack(table, packing, Precision::kFloat);
-  const std::string id = identifier(name);
+  // alone it may be a word of the language, as "float"
+  const std::string id = isCWord(identifier(name)) ? identifier(name) + "_table" : identifier(name);
   std::string sizes;
   for (const Axis& axis : table.info().axes) sizes += fmt::format("[{}]", axis.size());
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 namespace ltcfit {
 
@@ -20,6 +21,21 @@ std::string identifier(const std::string& text) {
     out.insert(0, out.starts_with('_') ? "ltc" : "ltc_");
   if (out.ends_with('_')) out.pop_back();
   return out;
+}
+
+bool isCWord(std::string_view word) {
+  static const std::set<std::string_view> words{
+      "alignas",   "alignof",   "and",       "asm",      "auto",     "bitand",   "bitor",   "bool",
+      "break",     "case",      "catch",     "char",     "class",    "compl",    "concept", "const",
+      "consteval", "constexpr", "constinit", "continue", "decltype", "default",  "delete",  "do",
+      "double",    "else",      "enum",      "explicit", "export",   "extern",   "false",   "float",
+      "for",       "friend",    "goto",      "if",       "inline",   "int",      "long",    "mutable",
+      "namespace", "new",       "noexcept",  "not",      "nullptr",  "operator", "or",      "private",
+      "protected", "public",    "register",  "requires", "restrict", "return",   "short",   "signed",
+      "sizeof",    "static",    "struct",    "switch",   "template", "this",     "throw",   "true",
+      "try",       "typedef",   "typeid",    "typename", "union",    "unsigned", "using",   "virtual",
+      "void",      "volatile",  "while",     "xor"};
+  return words.contains(word);
 }
 
 std::string upper(std::string text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ltc/table.h"
@@ -11,6 +12,8 @@ namespace ltcfit {
 /// Part of a C or GLSL identifier: characters that cannot be in one are turned into '_', runs of it into one;
 /// starts with a letter, not with gl_.
 std::string identifier(const std::string& text);
+/// Whether a word belongs to C or C++, so that nothing can be called so.
+bool isCWord(std::string_view word);
 std::string upper(std::string text);
 /// Text of a file inside a comment: it neither ends it nor breaks its lines.
 std::string commentSafe(std::string text);

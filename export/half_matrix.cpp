@@ -164,6 +164,8 @@ class Search {
     HalfRounding out;
     out.matrix = matrix(best_);
     out.shift = shiftOf(out.matrix, references_[0]);
+    for (const Reference& reference : references_)
+      out.between = std::max(out.between, shiftOf(out.matrix, reference));
     out.detError = bestCost_.detError;
     out.constrained = isOutOfReach() || detError(matrix(nearest_)) > kHalfDeterminantLimit;
     for (std::size_t i = 0; i < count_; ++i) out.moved = out.moved || best_[i] != exactOrdinal(i);

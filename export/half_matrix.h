@@ -14,10 +14,11 @@ namespace ltcfit {
 inline constexpr double kHalfDeterminantLimit = 0.0095;
 
 struct HalfRounding {
-  Eigen::Matrix3d matrix;    ///< the free entries are halves, none on the diagonal zero or subnormal
-  double shift = 0.0;        ///< mean distance between directions of the two lobes, radians
-  double detError = 0.0;     ///< |det(matrix) / det(given) - 1|; above the limit where halves cannot meet it
-  bool moved = false;        ///< some entry is not the half nearest to it
+  Eigen::Matrix3d matrix;  ///< the free entries are halves, none on the diagonal zero or subnormal
+  double shift = 0.0;      ///< mean distance between directions of the two lobes, radians
+  double between = 0.0;    ///< the largest such distance at the node and, where those were looked at, near it
+  double detError = 0.0;   ///< |det(matrix) / det(given) - 1|; above the limit where halves cannot meet it
+  bool moved = false;      ///< some entry is not the half nearest to it
   bool constrained = false;  ///< the nearest halves would have broken a bound below
 };
 
@@ -27,9 +28,10 @@ struct HalfRounding {
 /// What is minimised is not the rounding of each number but the shift of the lobe: the mean distance on the
 /// unit sphere between M x / |M x| and M' x / |M' x| over directions x of the cosine, an upper bound of the
 /// transport distance between the two lobes. Bounds:
-///   entries keep their sign, zeros stay zero: between nodes nothing changes sides that did not before;
-///   those on the diagonal are normal halves: zero makes matrices singular, subnormals have few digits;
-///   the determinant keeps within kHalfDeterminantLimit where halves near the matrix can do so.
+///   entries keep their sign (or become zero off the diagonal), zeros stay zero: between nodes nothing
+///   changes sides that did not before; those on the diagonal are normal halves: zero makes matrices
+///   singular, subnormals have few digits; the determinant keeps within kHalfDeterminantLimit where halves
+///   near the matrix can do so.
 /// Where the diagonal has to be lifted out of the subnormal halves (90 degrees at the smallest alphas), the
 /// shift halfway to the neighbours counts as much as the node's own, and the determinant comes second to
 /// both. Throws std::invalid_argument for entries that no half reaches.

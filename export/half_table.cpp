@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSmallestNormalHalf = 6.103515625e-5;
 constexpr double kLargestHalf = 65504.0;
-constexpr double kNotableShift = 0.01;  // rad
+constexpr double kNotableShift = 0.05;  // rad
 
 // The matrices of the nodes one step away along each axis.
 std::vector<Eigen::Matrix3d> neighboursOf(const Table& table, const std::vector<Eigen::Matrix3d>& matrices,
@@ -86,8 +86,9 @@ HalfReport roundMatrices(const Table& table, std::vector<Eigen::Matrix3d>& matri
     try {
       roundings[i] = roundToHalf(scale * matrices[i], stores, free, neighboursOf(table, matrices, i, scale));
     } catch (const std::invalid_argument& error) {
-      errors[i] = fmt::format("{} {}; write floats, or fit with a larger --alpha-floor", placeOf(table, i),
-                              error.what());
+      errors[i] =
+          fmt::format("{} {}; fit with a larger --alpha-floor, or write floats where there is a choice",
+                      placeOf(table, i), error.what());
     }
   }
   for (const std::string& error : errors)
@@ -103,7 +104,7 @@ HalfReport roundMatrices(const Table& table, std::vector<Eigen::Matrix3d>& matri
     report.nodes.push_back({i, rounding.shift, rounding.detError, rounding.constrained, rounding.moved, m});
     report.moved += rounding.moved ? 1 : 0;
     report.constrained += rounding.constrained ? 1 : 0;
-    report.largestShift = std::max(report.largestShift, rounding.shift);
+    report.largestShift = std::max(report.largestShift, rounding.between);
     if (!(rounding.detError <= kHalfDeterminantLimit)) {
       ++report.beyond;
       beyond = std::max(beyond, smallerAlpha(table, i));

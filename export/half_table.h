@@ -26,8 +26,9 @@ struct HalfReport {
   std::size_t moved = 0;        ///< nodes with an entry that is not the nearest half
   std::size_t constrained = 0;  ///< nodes whose nearest halves would have broken a bound
   std::size_t beyond = 0;       ///< nodes whose determinant halves cannot keep within 1 %
-  double alphaFloor = 0.0;      ///< from this alpha_y (the smaller one) on, every determinant is within 1 %
-  double largestShift = 0.0;
+  double alphaFloor =
+      0.0;  ///< from this alpha_y (the smaller one) on, every determinant is within 1 %; infinite for none
+  double largestShift = 0.0;     ///< at nodes, and beside those that were bounded
   double largestDetError = 0.0;  ///< over the nodes from alphaFloor on
   std::vector<HalfNode> nodes;   ///< all, in the order of the table; empty for floats
 };
@@ -35,8 +36,8 @@ struct HalfReport {
 /// "the node at alpha .., theta .. degrees": for messages.
 std::string placeOf(const Table& table, std::size_t node);
 
-/// What a user should know before shipping these halves: nothing for tables whose lobes move by less than a
-/// hundredth of a radian.
+/// What a user should know before shipping these halves: nothing for tables whose lobes move by less than
+/// 0.05 radians.
 std::optional<std::string> warningOf(const HalfReport& report);
 
 /// The smallest power of two that lifts every diagonal entry out of the subnormal halves, as far as the

@@ -49,6 +49,8 @@ std::optional<PackedTable> readSidecar(const std::string& path, std::string_view
   const std::string sum = checksum(bytes);
   const bool known = std::any_of(packed.files.begin(), packed.files.end(),
                                  [&](const auto& file) { return file.second == sum; });
+  if (packed.files.empty())
+    throw InputError(fmt::format("{}: names no files with checksums; export {} again", beside, path));
   if (!known) {
     throw InputError(fmt::format(
         "{}: describes another file than {} (its checksum is not among the described ones); export "
@@ -70,6 +72,9 @@ std::vector<Image> readFiles(const PackedTable& packed, const std::string& bytes
     if (!std::filesystem::is_regular_file(file))
       throw InputError(fmt::format("{}: not there, and {} is one of several files", file, path));
     const std::string other = readFile(file, kMaxTable);
+    if (std::filesystem::path(name) == std::filesystem::path(path).filename())
+      throw InputError(
+          fmt::format("{}: holds what {} calls another file: swapped or renamed", path, sidecarPath(path)));
     if (checksum(other) != sum)
       throw InputError(
           fmt::format("{}: does not belong to {} (its checksum is another one than described)", file, path));

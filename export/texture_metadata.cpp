@@ -119,7 +119,8 @@ Json metadataJson(const PackedTable& packed, const std::string& container) {
          "per node the halves whose lobe is closest; diagonals normal, signs kept, determinants within 1 %"},
         {"nodes_not_nearest", half.moved},
         {"nodes_bounded", half.constrained},
-        {"determinants_hold_from_alpha", half.alphaFloor},
+        {"determinants_hold_from_alpha",
+         std::isfinite(half.alphaFloor) ? Json(half.alphaFloor) : Json("none")},
         {"nodes_below_that", half.beyond},
         {"largest_lobe_shift_rad", half.largestShift},
         {"largest_determinant_error", half.largestDetError}};

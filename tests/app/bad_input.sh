@@ -105,6 +105,8 @@ expect "is a file" export good.json -o good.json --profile godot --resample
 expect "no/such" export good.json -o no/such --profile godot --resample
 expect "what format?" export good.json -o x.png
 expect "--report needs" export good.json -o x.dds --report
+expect "several files" export good.json --format dds --dds-header legacy -o /dev/stdout
+expect "holds floats" export good.json -o x.js --profile three --resample --report
 expect "fits none of the profiles" export good.json -o engines --profile all
 expect "a table to read is required" export -o x.h
 expect "--tolerance" compare good.json good.json --tolerance -1
