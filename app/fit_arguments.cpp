@@ -12,22 +12,14 @@
 namespace ltcfit::app {
 namespace {
 
-// DESIGN.md, Leaked light. Isotropic tables have room for less of it: at 0.2 it falls by a tenth for half a
-// percent of SW1; for the anisotropic table SW1 comes first.
-constexpr double kIsotropicLeakWeight = 0.2;
-constexpr double kIsotropicLightLeakWeight = 0.02;
-constexpr double kAnisotropicLightLeakWeight = 0.05;
-// DESIGN.md, Lights: the largest that do not lose on large lights against sw.
-constexpr double kIsotropicSizeExponent = 0.25;
-constexpr double kAnisotropicSizeExponent = 0.4;
-// What judges the SW1 of light-space fits, for the summary.
-constexpr SlicedWassersteinLevel kJudge{.samples = 1024, .slices = 32, .targetSamples = 2048};
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
-constexpr int kL3Samples = 1024;
 
-std::string defaultPreset(const FitArguments& a) {
-  if (a.fitter == "sw-sgd") return "quick";
-  return a.kind == FitKind::kIsotropic ? "fast" : "standard";
+TableKind kindOf(const FitArguments& a) {
+  return a.kind == FitKind::kIsotropic ? TableKind::kIsotropic : TableKind::kAnisotropic;
+}
+
+LobeFitOptions defaultsOf(const FitArguments& a, std::string_view fitter) {
+  return tableFitPreset(kindOf(a), fitterFromName(fitter));
 }
 
 [[noreturn]] void refuse(const std::string& message) {
@@ -37,19 +29,17 @@ std::string defaultPreset(const FitArguments& a) {
 }  // namespace
 
 std::string presetOf(const FitArguments& a) {
-  return a.preset.empty() ? defaultPreset(a) : a.preset;
+  return a.preset.empty() ? std::string(defaultPreset(kindOf(a), fitterFromName(a.fitter))) : a.preset;
 }
 
 double leakWeightOf(const FitArguments& a) {
-  const bool iso = a.kind == FitKind::kIsotropic;
   if (a.leakWeight) return *a.leakWeight;
-  if (a.fitter == "light") return iso ? kIsotropicLightLeakWeight : kAnisotropicLightLeakWeight;
-  return a.fitter == "sw" && iso ? kIsotropicLeakWeight : 0.0;
+  const LobeFitOptions defaults = defaultsOf(a, a.fitter);
+  return a.fitter == "light" ? defaults.light.leakWeight : defaults.sw.leakWeight;
 }
 
 double sizeExponentOf(const FitArguments& a) {
-  return a.sizeExponent.value_or(a.kind == FitKind::kIsotropic ? kIsotropicSizeExponent
-                                                               : kAnisotropicSizeExponent);
+  return a.sizeExponent.value_or(defaultsOf(a, "light").light.lights.sizeExponent);
 }
 
 void addFitterOptions(CLI::App& command, FitArguments& a) {
@@ -72,7 +62,7 @@ void addFitterOptions(CLI::App& command, FitArguments& a) {
       .add_option("--samples", a.samples,
                   "Directions of the LTC (and, for sw-sgd and l3, as many of the lobe); 16..1048576")
       ->check(CLI::Range(16, 1 << 20))
-      ->default_str(fmt::format("of the preset; l3: {}", kL3Samples));
+      ->default_str(fmt::format("of the preset; l3: {}", EntryFitOptions{}.samples));
   command.add_option("--directions", a.directions, "Projections of sw and sw-sgd; 4..65536")
       ->check(CLI::Range(4, 65536))
       ->default_str("of the preset");
@@ -82,9 +72,8 @@ void addFitterOptions(CLI::App& command, FitArguments& a) {
           "Weight of mass below the horizon: light: in units of the light error; sw: in units of the\n"
           "lobe's width; 0..100")
       ->check(CLI::Range(0.0, 100.0))
-      ->default_str(a.kind == FitKind::kIsotropic
-                        ? fmt::format("light: {}; sw: {}", kIsotropicLightLeakWeight, kIsotropicLeakWeight)
-                        : fmt::format("light: {}; sw: 0", kAnisotropicLightLeakWeight));
+      ->default_str(fmt::format("light: {}; sw: {}", defaultsOf(a, "light").light.leakWeight,
+                                defaultsOf(a, "sw").sw.leakWeight));
   command
       .add_option(
           "--weighting", a.weighting,
@@ -193,38 +182,25 @@ std::vector<std::size_t> parseSize(const std::string& text, std::size_t count) {
 }
 
 TableFitOptions toFitOptions(const FitArguments& a) {
-  TableFitOptions o;
-  const auto seed = static_cast<std::uint64_t>(a.seed);
-  o.threads = a.threads;
-  o.fitter = a.fitter == "light"    ? Fitter::kLight
-             : a.fitter == "sw"     ? Fitter::kSlicedWasserstein
-             : a.fitter == "sw-sgd" ? Fitter::kSlicedWassersteinSgd
-                                    : Fitter::kL3;
-  const bool light = a.fitter == "light";
-  o.sw = slicedWassersteinPreset(a.fitter == "sw" ? presetOf(a) : "standard");
-  o.sw.seed = seed;
-  if (light) {
-    o.light = lightFitPreset(presetOf(a));
-    o.sw.levels = {kJudge};
+  const bool preset = a.fitter != "l3" && !a.preset.empty();
+  TableFitOptions o{tableFitPreset(kindOf(a), fitterFromName(a.fitter), preset ? a.preset : ""), a.threads};
+  o.setSeed(static_cast<std::uint64_t>(a.seed));
+  if (a.fitter == "light") {
     if (a.lights > 0) o.light.lights.lights = a.lights;
     o.light.lights.weighting = lightWeightingFromName(a.weighting);
     o.light.lights.sizeExponent = sizeExponentOf(a);
     o.light.leakWeight = leakWeightOf(a);
   }
-  o.light.lights.seed = seed;
   if (a.fitter == "sw") {
     o.sw.leakWeight = leakWeightOf(a);
     if (a.samples > 0) o.sw.levels.back().samples = a.samples;
     if (a.directions > 0) o.sw.levels.back().slices = a.directions;
   }
   if (a.fitter == "sw-sgd") {
-    if (presetOf(a) == "paper") o.sgd = paperSgdOptions();
     if (a.samples > 0) o.sgd.samples = a.samples;
     if (a.directions > 0) o.sgd.slices = a.directions;
   }
-  o.sgd.seed = seed;
-  o.l3.samples = a.samples > 0 ? a.samples : kL3Samples;
-  o.l3.seed = seed;
+  if (a.samples > 0) o.l3.samples = a.samples;
   o.l3.nelderMead.maxEvaluations = a.maxEvaluations;
   o.l3.family = a.family == "3" ? IsotropicFamily::kMeanFrame3 : IsotropicFamily::kPlane4;
   std::string error;
@@ -248,7 +224,7 @@ Provenance makeProvenance(const FitArguments& a) {
   add("--fitter", "fitter", a.fitter, a.fitter);
   if (a.fitter != "l3") add("--preset", "preset", presetOf(a), presetOf(a));
   if (a.fitter == "l3") {
-    const int samples = a.samples > 0 ? a.samples : kL3Samples;
+    const int samples = a.samples > 0 ? a.samples : EntryFitOptions{}.samples;
     if (iso) add("--family", "family", a.family, a.family);
     add("--samples", "samples", samples, std::int64_t{samples});
     if (a.maxEvaluations != NelderMeadOptions{}.maxEvaluations)

@@ -4,10 +4,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <exception>
 #include <memory>
-#include <optional>
 
+#include "fit/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "ltc/alignment.h"
 #include "ltc/ltc.h"
@@ -16,9 +15,6 @@ namespace ltcfit {
 namespace {
 
 using Eigen::Matrix3d;
-
-// A light-space fit whose SW1 is so many times that of its start has lost the lobe.
-constexpr double kWorstLoss = 1.5;
 
 Matrix3d unitThirdColumn(const Matrix3d& m) {
   return normalized(m, MatrixNormalization::kThirdColumnUnit);
@@ -33,112 +29,21 @@ Matrix3d nodeMatrix(const NodeSource& node, const JobResult& job) {
   return projectOnFamily(turned(projectOnFamily(job.m, node.jobFamily), node.rotation), node.family);
 }
 
-// body(i) for all i below n, on some threads; what it returns is called, one at a time. The first exception
-// ends the loop and comes out of it (none may leave an OpenMP region).
-template <class Body>
-void parallelFor(std::size_t n, int threads, const Body& body) {
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < n; ++i) {
-    bool stop = false;
-#pragma omp critical(ltcfit_parallel_for)
-    stop = failure != nullptr;
-    if (stop) continue;
-    std::optional<decltype(body(i))> after;
-    std::exception_ptr thrown;
-    try {
-      after.emplace(body(i));
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-#pragma omp critical(ltcfit_parallel_for)
-    {
-      try {
-        if (thrown) std::rethrow_exception(thrown);
-        if (!failure) (*after)();
-      } catch (...) {
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-}
-
 }  // namespace
 
-std::string_view fitterName(Fitter fitter) {
-  switch (fitter) {
-    case Fitter::kSlicedWassersteinSgd:
-      return "sw-sgd";
-    case Fitter::kL3:
-      return "l3";
-    case Fitter::kLight:
-      return "light";
-    case Fitter::kSlicedWasserstein:
-      break;
-  }
-  return "sw";
-}
-
-bool TableFitOptions::isValid(std::string* error) const {
-  return sw.isValid(error) && sgd.isValid(error) && light.isValid(error) && l3.nelderMead.isValid(error);
-}
-
-JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOptions& options) {
-  const std::unique_ptr<Lobe> lobe = makeTargetLobe(brdf, job.parameters);
-  const LobeMoments moments = computeMoments(*lobe);
+JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions& options) {
+  LobeFitTarget target(job, brdf, options);
+  ProjectedCdfLoss& judge = target.judge();
   JobResult r;
-  r.norm = moments.albedo;
-  r.fresnel = moments.fresnel;
-  r.momentError = moments.error;
-
-  // fewer slices do for a matrix of the family; a stochastic descent leaves it
-  const MatrixFamily judged =
-      options.fitter == Fitter::kSlicedWassersteinSgd ? MatrixFamily::kGeneral : job.family;
-  const SlicedWassersteinTarget target = makeTarget(*lobe, judged, options.sw);
-  ProjectedCdfLoss judge = makeLoss(target, options.sw.levels.back(), options.sw.seed);
-  r.startLoss = judge(target.start, nullptr);
-  Matrix3d m;
-  switch (options.fitter) {
-    case Fitter::kSlicedWasserstein: {
-      const SlicedWassersteinFit fit = fitSlicedWasserstein(target, target.start, options.sw, judge);
-      m = fit.m;
-      r.evaluations = fit.evaluations;
-      r.termination = fit.termination;
-      break;
-    }
-    case Fitter::kSlicedWassersteinSgd: {
-      const SgdResult fit = descendSlicedWasserstein(*lobe, target.start, options.sgd);
-      m = fit.m;
-      r.evaluations = options.sgd.steps;
-      r.termination = fit.finite ? Termination::kConverged : Termination::kFailure;
-      break;
-    }
-    case Fitter::kL3: {
-      const EntryFit fit = fitL3Entry(*lobe, moments.albedo, job.family, target.start, options.l3);
-      m = fit.m;
-      r.evaluations = fit.evaluations;
-      r.termination = fit.termination;
-      break;
-    }
-    case Fitter::kLight: {
-      const ContourIntegrator truth(*lobe);
-      const LightTarget lights{truth, moments.albedo, job.family, target.start};
-      const LightFit fit = fitLights(lights, target.start, options.light);
-      m = fit.m;
-      r.evaluations = fit.evaluations;
-      r.termination = fit.termination;
-      r.integralError = fit.integralError;
-      // Lights that do not hold the lobe: the other fit does.
-      if (fit.termination == Termination::kFailure || judge(m, nullptr) > kWorstLoss * r.startLoss) {
-        const SlicedWassersteinFit sw = fitSlicedWasserstein(target, target.start, options.sw, judge);
-        m = sw.m;
-        r.evaluations += sw.evaluations;
-        r.termination = sw.termination;
-      }
-      break;
-    }
-  }
+  r.norm = target.moments().albedo;
+  r.fresnel = target.moments().fresnel;
+  r.momentError = target.moments().error;
+  r.startLoss = judge(target.momentStart(), nullptr);
+  const LobeFit fit = fitLobe(target, target.momentStart(), options);
+  r.evaluations = fit.evaluations;
+  r.termination = fit.termination;
+  r.integralError = fit.integralError;
+  Matrix3d m = fit.m;
   r.fitted = m.allFinite() && m.determinant() != 0.0;
   if (!r.fitted) return r;
   if (m.determinant() < 0.0) m.col(1) *= -1.0;

@@ -6,31 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "fit/entry_fit.h"
-#include "fit/light_fit.h"
-#include "fit/sgd.h"
-#include "fit/sliced_wasserstein_fit.h"
+#include "fit/lobe_fit.h"
 #include "fit/table_plan.h"
 
 namespace ltcfit {
 
-enum class Fitter {
-  kSlicedWasserstein,     ///< "sw": fitSlicedWasserstein
-  kSlicedWassersteinSgd,  ///< "sw-sgd": descendSlicedWasserstein
-  kL3,                    ///< "l3": Nelder-Mead on the L3 error
-  kLight,                 ///< "light": fitLights
-};
-std::string_view fitterName(Fitter fitter);
-
-struct TableFitOptions {
-  Fitter fitter = Fitter::kSlicedWasserstein;
-  SlicedWassersteinFitOptions sw;  ///< also judges the results of the other fitters
-  SgdOptions sgd;
-  LightFitOptions light;
-  EntryFitOptions l3;
+struct TableFitOptions : LobeFitOptions {
   int threads = 0;  ///< 0: as many as OpenMP offers
-
-  bool isValid(std::string* error) const;
 };
 
 /// One fitted lobe. Losses are SW1 by the samples of `TableFitOptions::sw` (its last level), for every
@@ -51,9 +33,8 @@ struct JobResult {
   double momentError = 0.0;    ///< estimated absolute error of the two
   double integralError = 0.0;  ///< kLight: estimated largest error of the true light integrals
   int evaluations = 0;
-  /// kConverged also for a stochastic descent that stayed finite: it has no other criterion.
-  Termination termination = Termination::kFailure;
-  bool fitted = false;  ///< the matrix is finite and has an inverse
+  Termination termination = Termination::kFailure;  ///< LobeFit::termination
+  bool fitted = false;                              ///< the matrix is finite and has an inverse
 };
 
 struct TableFitResult {
@@ -86,7 +67,7 @@ class JobStore {
 using TableFitProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Fits one lobe: a function of its arguments alone, so that neither threads nor interruptions show.
-JobResult fitJob(const LobeJob& job, std::string_view brdf, const TableFitOptions& options);
+JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions& options);
 
 /// Fits every job of the plan that `store` (may be null) does not have, and makes the nodes. In
 /// SymmetryMode::kAfter, where jobs are nodes, symmetricLoss and storedLoss are of the node's final matrix,
