@@ -55,12 +55,8 @@ struct LightFit {
   int evaluations = 0;
   Termination termination = Termination::kFailure;
   double integralError = 0.0;  ///< PolygonLights::integralError, where fitLights made the lights
+  bool restarted = false;      ///< fitLights: the start's own descent did not arrive
 };
-
-/// Minimises the problem over the matrices of its family from `start`, det > 0, by Levenberg-Marquardt
-/// (Ceres, dense QR).
-LightFit solveLightProblem(const LightProblem& problem, const Eigen::Matrix3d& start,
-                           const LightFitOptions& options);
 
 /// What a fit knows of its lobe.
 struct LightTarget {
@@ -70,9 +66,22 @@ struct LightTarget {
   Eigen::Matrix3d momentStart;  ///< a matrix of the family that overlaps the lobe
 };
 
-/// Two rounds: few lights about target.momentStart, then all about what these gave. From a `start` (of the
-/// family, det != 0) that leads the first round above the cost of target.momentStart, it begins again there.
-/// Costs are those of the second round, evaluations those of both.
+/// The problem over lights of which `near` explains much, its other weights in units of the light error e of
+/// `near` (RMS): leak^2 below is leakWeight n e below next to the n squares, the change of their RMS with the
+/// mass below in multiples of leakWeight / 2; the prior makes a step of 1, about the whole matrix, cost a
+/// tenth of n e^2. Keeps a reference to `lights`.
+LightProblem makeLightProblem(const std::vector<PolygonLight>& lights, const LightTarget& target,
+                              const Eigen::Matrix3d& near, const LightFitOptions& options);
+
+/// Minimises the problem over the matrices of its family from `start`, det > 0, by Levenberg-Marquardt
+/// (Ceres, dense QR).
+LightFit solveLightProblem(const LightProblem& problem, const Eigen::Matrix3d& start,
+                           const LightFitOptions& options);
+
+/// Two rounds: few lights about target.momentStart, then all about what these gave. The first one descends
+/// from `start` (of the family, det != 0) and from target.momentStart, and keeps the latter's minimum unless
+/// the former's is lower by a tenth: what is left of a start is what it found better. Costs are those of the
+/// second round, evaluations those of both.
 LightFit fitLights(const LightTarget& target, const Eigen::Matrix3d& start, const LightFitOptions& options);
 
 }  // namespace ltcfit

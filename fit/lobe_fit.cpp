@@ -29,7 +29,8 @@ MatrixFamily judgedFamily(MatrixFamily family, Fitter fitter) {
 
 LobeFit fitBySlices(LobeFitTarget& target, const Matrix3d& start, const LobeFitOptions& options) {
   const SlicedWassersteinFit fit = fitSlicedWasserstein(target.samples(), start, options.sw, target.judge());
-  return {.m = fit.m, .evaluations = fit.evaluations, .termination = fit.termination};
+  return {
+      .m = fit.m, .evaluations = fit.evaluations, .termination = fit.termination, .restarted = fit.restarted};
 }
 
 }  // namespace
@@ -129,11 +130,12 @@ LobeFit fitLobe(LobeFitTarget& target, const Matrix3d& start, const LobeFitOptio
   LobeFit fit{.m = light.m,
               .evaluations = light.evaluations,
               .termination = light.termination,
-              .integralError = light.integralError};
+              .integralError = light.integralError,
+              .restarted = light.restarted};
   // Lights that do not hold the lobe: the other fit does.
   if (light.termination == Termination::kFailure ||
       target.judge()(light.m, nullptr) > kWorstLoss * target.judge()(target.momentStart(), nullptr)) {
-    const LobeFit sw = fitBySlices(target, start, options);
+    const LobeFit sw = fitBySlices(target, target.momentStart(), options);
     fit.m = sw.m;
     fit.evaluations += sw.evaluations;
     fit.termination = sw.termination;

@@ -81,6 +81,7 @@ struct LobeFit {
   /// kConverged also for a stochastic descent that stayed finite: it has no other criterion.
   Termination termination = Termination::kFailure;
   double integralError = 0.0;  ///< kLight: estimated largest error of the true light integrals
+  bool restarted = false;      ///< kLight, kSlicedWasserstein: the start's own descent did not arrive
   bool handedOver = false;     ///< kLight: the fit lost its lobe, and sw's was taken
 };
 

@@ -43,6 +43,7 @@ struct SlicedWassersteinFit {
   double loss = 0.0;                                ///< at the end, by the same
   int evaluations = 0;                              ///< of all levels
   Termination termination = Termination::kFailure;  ///< of the last level
+  bool restarted = false;                           ///< the start's own descent did not arrive
 };
 
 /// What a fit knows of its lobe.
@@ -60,9 +61,9 @@ ProjectedCdfLoss makeLoss(const SlicedWassersteinTarget& target, const SlicedWas
 
 /// Minimises the loss over the matrices of the target's family from `start`: target.start, or any other
 /// matrix of the family with det != 0. After each descent the parametrisation M (I + P) is taken anew about
-/// the matrix found, until that gains nothing, so that a start of another scale costs only time; where a
-/// descent from far away ends above the loss of target.start, it begins again there. `finest` is makeLoss of
-/// the last level.
+/// the matrix found, until that gains nothing, so that a start of another scale costs only time. From another
+/// start than target.start the first level descends from both, and keeps the minimum of target.start unless
+/// the other's is lower by a tenth. `finest` is makeLoss of the last level.
 SlicedWassersteinFit fitSlicedWasserstein(const SlicedWassersteinTarget& target, const Eigen::Matrix3d& start,
                                           const SlicedWassersteinFitOptions& options,
                                           ProjectedCdfLoss& finest);
