@@ -26,5 +26,6 @@ void addFitCommand(CLI::App& app, CommandStatus& status);
 void addCompareCommand(CLI::App& app, CommandStatus& status);
 void addExportCommand(CLI::App& app, CommandStatus& status);
 void addScoreCommand(CLI::App& app, CommandStatus& status);
+void addStabilityCommand(CLI::App& app, CommandStatus& status);
 
 }  // namespace ltcfit::app

@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   addScoreCommand(app, status);
   addCompareCommand(app, status);
   addExportCommand(app, status);
+  addStabilityCommand(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

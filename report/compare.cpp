@@ -38,20 +38,6 @@ Eigen::Vector3d projection(int i) {
   return {radius * std::cos(azimuth), radius * std::sin(azimuth), u.x()};
 }
 
-double distance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  const Directions x = lobeDirections(a);
-  const Directions y = lobeDirections(b);
-  double sum = 0.0;
-  for (int i = 0; i < kProjections; ++i) {
-    Eigen::Matrix<double, 1, kDirections> p = projection(i).transpose() * x;
-    Eigen::Matrix<double, 1, kDirections> q = projection(i).transpose() * y;
-    std::sort(p.data(), p.data() + kDirections);
-    std::sort(q.data(), q.data() + kDirections);
-    sum += (p - q).cwiseAbs().mean();
-  }
-  return sum / kProjections;
-}
-
 bool sameNodes(const Table& a, const Table& b) {
   return std::equal(
       a.info().axes.begin(), a.info().axes.end(), b.info().axes.begin(), b.info().axes.end(),
@@ -79,6 +65,20 @@ bool has(const Table& table, std::string_view channel) {
 }
 
 }  // namespace
+
+double lobeDistance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  const Directions x = lobeDirections(a);
+  const Directions y = lobeDirections(b);
+  double sum = 0.0;
+  for (int i = 0; i < kProjections; ++i) {
+    Eigen::Matrix<double, 1, kDirections> p = projection(i).transpose() * x;
+    Eigen::Matrix<double, 1, kDirections> q = projection(i).transpose() * y;
+    std::sort(p.data(), p.data() + kDirections);
+    std::sort(q.data(), q.data() + kDirections);
+    sum += (p - q).cwiseAbs().mean();
+  }
+  return sum / kProjections;
+}
 
 TableDifference compareTables(const Table& first, const Table& second) {
   if (first.isIsotropic() != second.isIsotropic())
@@ -114,7 +114,7 @@ TableDifference compareTables(const Table& first, const Table& second) {
     const std::vector<std::size_t> node = first.node(i);
     const TableEntry a = first.entry(node);
     const TableEntry b = out.sameNodes ? second.entry(node) : second.fetch(first.parameters(node));
-    if (a.invertible && b.invertible) sw1[i] = distance(a.m, b.m);
+    if (a.invertible && b.invertible) sw1[i] = lobeDistance(a.m, b.m);
     if (a.norm && b.norm) norm[i] = std::abs(*a.norm - *b.norm);
     if (a.fresnel && b.fresnel) fresnel[i] = std::abs(*a.fresnel - *b.fresnel);
   }
@@ -125,7 +125,7 @@ TableDifference compareTables(const Table& first, const Table& second) {
     if (!p) continue;
     const TableEntry a = first.fetch(*p);
     const TableEntry b = second.fetch(*p);
-    if (a.invertible && b.invertible) between[i] = distance(a.m, b.m);
+    if (a.invertible && b.invertible) between[i] = lobeDistance(a.m, b.m);
   }
   double worst = -1.0;
   for (std::size_t i = 0; i < nodes; ++i) {

@@ -1,6 +1,7 @@
 // How two tables differ: as numbers and as lobes, without a look at what they stand for.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -29,11 +30,13 @@ struct TableDifference {
   std::size_t worstNode = 0;          ///< of sw1, in the first table
 };
 
-/// Compares at the nodes of the first table and between them. The distance is the sliced Wasserstein one
-/// between the two LTCs: 256 directions of each, 16 projections, the same for both, so that equal lobes have
-/// distance 0 and the same lobe under another matrix (turned about z from the right) a small one, at most
-/// 0.02 of its width. Throws std::invalid_argument where one is isotropic and the other anisotropic.
-/// Independent of threads.
+/// The sliced Wasserstein distance between the LTCs of two matrices with det != 0, 0..2: 256 directions of
+/// each, 16 projections, the same for both, so that equal lobes have distance 0 and the same lobe under
+/// another matrix (turned about z from the right) a small one, at most 0.02 of its width.
+double lobeDistance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
+
+/// Compares at the nodes of the first table and between them, lobes by lobeDistance(). Throws
+/// std::invalid_argument where one is isotropic and the other anisotropic. Independent of threads.
 TableDifference compareTables(const Table& first, const Table& second);
 
 }  // namespace ltcfit
