@@ -104,7 +104,13 @@ LobeFitTarget::LobeFitTarget(const LobeJob& job, std::string_view brdf, const Lo
       moments_(computeMoments(*lobe_)),
       family_(job.family),
       samples_(makeTarget(*lobe_, judgedFamily(job.family, options.fitter), options.sw)),
-      judge_(makeLoss(samples_, options.sw.levels.back(), options.sw.seed)) {}
+      judgeLevel_(options.sw.levels.back()),
+      seed_(options.sw.seed) {}
+
+ProjectedCdfLoss& LobeFitTarget::judge() {
+  if (!judge_) judge_.emplace(makeLoss(samples_, judgeLevel_, seed_));
+  return *judge_;
+}
 
 LobeFit fitLobe(LobeFitTarget& target, const Matrix3d& start, const LobeFitOptions& options) {
   switch (options.fitter) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -64,15 +65,18 @@ class LobeFitTarget {
   /// momentStart() of the lobe, in the family.
   const Eigen::Matrix3d& momentStart() const { return samples_.start; }
   const SlicedWassersteinTarget& samples() const { return samples_; }
-  /// The SW1 of a matrix by the samples of the last level of options.sw.
-  ProjectedCdfLoss& judge() { return judge_; }
+  /// The SW1 of a matrix by the samples of the last level of options.sw. Made when first asked for: not every
+  /// fitter needs it.
+  ProjectedCdfLoss& judge();
 
  private:
   std::unique_ptr<Lobe> lobe_;
   LobeMoments moments_;
   MatrixFamily family_;
   SlicedWassersteinTarget samples_;
-  ProjectedCdfLoss judge_;
+  SlicedWassersteinLevel judgeLevel_;
+  std::uint64_t seed_;
+  std::optional<ProjectedCdfLoss> judge_;
 };
 
 struct LobeFit {
