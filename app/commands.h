@@ -25,6 +25,7 @@ struct CommandStatus {
 void addFitCommand(CLI::App& app, CommandStatus& status);
 void addCompareCommand(CLI::App& app, CommandStatus& status);
 void addExportCommand(CLI::App& app, CommandStatus& status);
+void addParetoCommand(CLI::App& app, CommandStatus& status);
 void addScoreCommand(CLI::App& app, CommandStatus& status);
 void addStabilityCommand(CLI::App& app, CommandStatus& status);
 

@@ -110,6 +110,21 @@ expect "holds floats" export good.json -o x.js --profile three --resample --repo
 expect "fits none of the profiles" export good.json -o engines --profile all
 expect "a table to read is required" export -o x.h
 expect "--tolerance" compare good.json good.json --tolerance -1
+expect "--table" pareto --table both
+expect "--entries" pareto --entries 0
+expect "--entries" pareto --entries 1001
+expect "--entries" pareto --entries nan
+expect "--repeats" pareto --repeats 0
+expect "--repeats" pareto --repeats 2.5
+expect "--fitter" pareto --fitter magic
+expect "--seed" pareto --seed -1
+expect "--seed" pareto --seed inf
+expect "--samples" pareto --samples 15
+expect "--lights" pareto --lights 0
+expect "--threads" pareto --threads -1
+expect "no/such" pareto -o no/such/p.json
+expect "is a folder" pareto -o .
+expect "not expected: --preset" pareto --preset
 expect "missing.json" compare good.json missing.json
 expect "is required" compare good.json
 "$ltcfit" export -q good.json -o t.dds || fail "export of a DDS"
@@ -214,5 +229,5 @@ rm link.json target.json
 [ "$(ls)" = "$(cat before)" ] || fail "files were left: $(ls | diff before - | tr '\n' ' ')"
 "$ltcfit" --help | grep -q "Exit codes" || fail "--help"
 "$ltcfit" --version | grep -q "^ltcfit [0-9]" || fail "--version"
-for c in "fit iso" score export compare; do "$ltcfit" $c --help | grep -q -- "--" || fail "$c --help"; done
+for c in "fit iso" score export compare pareto; do "$ltcfit" $c --help | grep -q -- "--" || fail "$c --help"; done
 finish
