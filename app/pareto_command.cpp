@@ -61,18 +61,21 @@ void printTable(const ParetoArguments& a, const ParetoResult& result) {
       "{} {} entries, {} repeats, seed {}; {} samples, {} directions, {} quads, {} lights of each size\n"
       "CPU ms an entry: median over repeats, smallest and largest. Errors: over the best of any fit of an "
       "entry,\n"
-      "geometric mean over entries (median over repeats); * = no other setting is as fast and as good\n\n",
+      "geometric mean over entries (median over repeats); * = no other setting is as fast and as good, at "
+      "the "
+      "entries\nthat both have\n\n",
       a.entries, a.table == "iso" ? "isotropic" : "anisotropic", a.repeats, a.seed, a.metrics.samples,
       a.metrics.directions, a.metrics.quads, a.metrics.lights);
   std::size_t width = 0;
   for (const FitSetting& s : result.settings) width = std::max(width, settingLabel(s).size());
-  fmt::print("{:<{}}{:>5}{:>9}{:>18}", "", width, "runs", "CPU ms", "");
+  fmt::print("{:<{}}{:>9}{:>9}{:>18}", "", width, "fits", "CPU ms", "");
   for (const ParetoMetric& m : paretoMetrics()) fmt::print("{:>9} ", m.name);
   fmt::print("\n");
   for (std::size_t s = 0; s < result.settings.size(); ++s) {
     const SettingSummary& summary = result.summaries[s];
     const Spread& seconds = summary.cpuSeconds;
-    fmt::print("{:<{}}{:>5}{:>9}{:>18}", settingLabel(result.settings[s]), width, summary.runs,
+    fmt::print("{:<{}}{:>9}{:>9}{:>18}", settingLabel(result.settings[s]), width,
+               fmt::format("{} x {}", summary.entries, summary.runs / summary.entries),
                milliseconds(seconds.median),
                fmt::format("({}..{})", milliseconds(seconds.low), milliseconds(seconds.high)));
     for (const SettingErrors& e : summary.errors) {

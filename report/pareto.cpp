@@ -6,12 +6,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
-#include <numeric>
 
 #include "fit/parallel_for.h"
 #include "fit/target_lobe.h"
-#include "report/front.h"
 #include "report/pareto_entries.h"
 
 namespace ltcfit {
@@ -66,98 +65,7 @@ ParetoRun fitAndMeasure(const FitSetting& setting, const LobeParameters& paramet
   return run;
 }
 
-// exp of the mean logarithm; 0 and infinity as they are.
-double geometricMean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += std::log(v);
-  return std::exp(sum / static_cast<double>(values.size()));
-}
-
-// 1 where both are 0 or the best is no better than infinite.
-double over(double error, double best) {
-  if (!std::isfinite(error)) return kInfinity;
-  return error == best ? 1.0 : error / best;
-}
-
-// The best error at each entry, of any run.
-std::vector<double> bestErrors(const std::vector<SettingRuns>& runs, std::size_t metric) {
-  std::vector<double> best;
-  for (const SettingRuns& setting : runs) {
-    for (const std::vector<ParetoRun>& repeat : setting) {
-      best.resize(std::max(best.size(), repeat.size()), kInfinity);
-      for (std::size_t e = 0; e < repeat.size(); ++e) best[e] = std::min(best[e], repeat[e].errors[metric]);
-    }
-  }
-  return best;
-}
-
 }  // namespace
-
-const std::array<ParetoMetric, kParetoMetrics>& paretoMetrics() {
-  static constexpr std::array<ParetoMetric, kParetoMetrics> kMetrics{{
-      {"SW1", "", "Mean over projections of the distance between the CDFs of lobe and fit."},
-      {"SW1rel", "", "SW1 over the lobe's width."},
-      {"form", "", "Mean difference of the integrals of lobe and fit over random quads near the lobe."},
-      {"light_s", "",
-       "RMS error of the reflected light over random lights of half-size 0.05 anywhere above."},
-      {"light_m", "", "The same for lights of half-size 0.25."},
-      {"light_l", "", "The same for lights of half-size 0.8."},
-      {"light", "", "Geometric mean of light_s, light_m and light_l."},
-      {"L3", "sr^-2/3", "L3 norm of the difference of the densities."},
-      {"TV", "", "Total variation: half the integral of the difference of the densities."},
-  }};
-  return kMetrics;
-}
-
-Spread spreadOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  const double median = values.size() % 2 == 1
-                            ? values[middle]
-                            : values[middle - 1] + 0.5 * (values[middle] - values[middle - 1]);
-  // of two infinite ones the difference is no number
-  return {std::isnan(median) ? values[middle] : median, values.front(), values.back()};
-}
-
-std::vector<SettingSummary> summarizePareto(const std::vector<SettingRuns>& runs) {
-  std::vector<SettingSummary> out(runs.size());
-  for (std::size_t s = 0; s < runs.size(); ++s) {
-    std::vector<double> seconds;
-    for (const std::vector<ParetoRun>& repeat : runs[s]) {
-      double sum = 0.0;
-      for (const ParetoRun& run : repeat) {
-        sum += run.cpuSeconds;
-        out[s].notConverged += run.converged ? 0 : 1;
-        out[s].nonFinite += std::isfinite(run.errors[0]) ? 0 : 1;
-      }
-      seconds.push_back(sum / static_cast<double>(repeat.size()));
-      out[s].runs += repeat.size();
-    }
-    out[s].entries = runs[s].front().size();
-    out[s].cpuSeconds = spreadOf(std::move(seconds));
-  }
-  for (std::size_t metric = 0; metric < kParetoMetrics; ++metric) {
-    const std::vector<double> best = bestErrors(runs, metric);
-    const double bestMean = geometricMean(best);
-    std::vector<CostAndError> choices;
-    for (std::size_t s = 0; s < runs.size(); ++s) {
-      std::vector<double> means;
-      for (const std::vector<ParetoRun>& repeat : runs[s]) {
-        std::vector<double> ratios;
-        for (std::size_t e = 0; e < repeat.size(); ++e)
-          ratios.push_back(over(repeat[e].errors[metric], best[e]));
-        means.push_back(geometricMean(ratios));
-      }
-      SettingErrors& errors = out[s].errors[metric];
-      errors.ratio = spreadOf(std::move(means));
-      errors.value = errors.ratio.median * bestMean;
-      choices.push_back({out[s].cpuSeconds.median, errors.ratio.median});
-    }
-    const std::vector<bool> front = paretoFront(choices);
-    for (std::size_t s = 0; s < runs.size(); ++s) out[s].errors[metric].front = front[s];
-  }
-  return out;
-}
 
 ParetoResult runPareto(const ParetoOptions& options, const ParetoProgress& progress) {
   ParetoResult result;

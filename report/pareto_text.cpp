@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/front.h"
-
 namespace ltcfit {
 namespace {
 
@@ -17,20 +15,22 @@ class Explanation {
   Explanation(const ParetoResult& result, std::size_t setting) : result_(result), own_(setting) {}
 
   std::string text() const {
+    if (!std::isfinite(errors(own_, kParetoLight).ratio.median)) {
+      return fmt::format("{} is on no front: {} of its {} fits failed.", settingLabel(result_.settings[own_]),
+                         summary(own_).nonFinite, summary(own_).runs);
+    }
     return fmt::format("{} {} {} {}", lightFront(), neighbours(), otherFitters(), otherFronts());
   }
 
  private:
-  double seconds(std::size_t s) const { return result_.summaries[s].cpuSeconds.median; }
-  const SettingErrors& errors(std::size_t s, std::size_t metric) const {
-    return result_.summaries[s].errors[metric];
-  }
-  double ratio(std::size_t s, std::size_t metric) const { return errors(s, metric).ratio.median; }
+  const SettingSummary& summary(std::size_t s) const { return result_.summaries[s]; }
+  double seconds(std::size_t s) const { return summary(s).cpuSeconds.median; }
+  const SettingErrors& errors(std::size_t s, std::size_t metric) const { return summary(s).errors[metric]; }
 
   // "0.55 times its time, 1.5 % more error"
   std::string against(std::size_t s, std::size_t metric) const {
     const double time = seconds(s) / seconds(own_);
-    const double percent = 100.0 * (ratio(s, metric) / ratio(own_, metric) - 1.0);
+    const double percent = 100.0 * (errorOver(summary(s), summary(own_), metric) - 1.0);
     const std::string difference =
         !std::isfinite(percent) ? "no finite error"
         : std::abs(percent) < 0.005
@@ -42,33 +42,33 @@ class Explanation {
 
   // What beats it there, the best first; all of a metric.
   std::vector<std::size_t> beatenBy(std::size_t metric) const {
-    const auto choice = [&](std::size_t s) { return CostAndError{seconds(s), ratio(s, metric)}; };
     std::vector<std::size_t> out;
     for (std::size_t s = 0; s < result_.settings.size(); ++s)
-      if (beats(choice(s), choice(own_))) out.push_back(s);
-    std::stable_sort(out.begin(), out.end(),
-                     [&](std::size_t a, std::size_t b) { return ratio(a, metric) < ratio(b, metric); });
+      if (beats(summary(s), summary(own_), metric)) out.push_back(s);
+    std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+      return errorOver(summary(a), summary(own_), metric) < errorOver(summary(b), summary(own_), metric);
+    });
     return out;
   }
 
   std::string lightFront() const {
-    const std::string label = settingLabel(result_.settings[own_]);
     const Spread& error = errors(own_, kParetoLight).ratio;
+    const std::string time = fmt::format("{} takes {:.3g} ms an entry and is",
+                                         settingLabel(result_.settings[own_]), 1e3 * seconds(own_));
     const std::string seeds =
-        fmt::format("Seeds move its error by {:.2f} %.", 100.0 * (error.high / error.low - 1.0));
-    if (errors(own_, kParetoLight).front) {
-      return fmt::format(
-          "{} takes {:.3g} ms an entry and is on the front of light: nothing measured is both as fast and as "
-          "good. {}",
-          label, 1e3 * seconds(own_), seeds);
-    }
+        summary(own_).nonFinite > 0
+            ? fmt::format("{} of its {} fits failed.", summary(own_).nonFinite, summary(own_).runs)
+        : summary(own_).runs == summary(own_).entries
+            ? std::string("One repeat does not show what seeds do.")
+            : fmt::format("Seeds move its error by {:.2f} %.", 100.0 * (error.high / error.low - 1.0));
+    if (errors(own_, kParetoLight).front)
+      return fmt::format("{} on the front of light: nothing measured is both as fast and as good. {}", time,
+                         seeds);
     std::string beaten;
     for (const std::size_t s : beatenBy(kParetoLight))
       beaten += fmt::format("{}{} ({})", beaten.empty() ? "" : "; ", settingLabel(result_.settings[s]),
                             against(s, kParetoLight));
-    return fmt::format("{} takes {:.3g} ms an entry and is not on the front of light. {}: {}. {}", label,
-                       1e3 * seconds(own_), beaten.empty() ? "Its error is not finite" : "It is beaten by",
-                       beaten.empty() ? "no figure" : beaten, seeds);
+    return fmt::format("{} not on the front of light. It is beaten by: {}. {}", time, beaten, seeds);
   }
 
   // The next cheaper and the next dearer setting on the front of light.
@@ -85,7 +85,7 @@ class Explanation {
     const Spread& error = errors(own_, kParetoLight).ratio;
     const auto describe = [&](const char* which, std::size_t s) {
       if (s == kNone) return fmt::format("Nothing on that front is {}.", which);
-      const double change = ratio(s, kParetoLight) / ratio(own_, kParetoLight) - 1.0;
+      const double change = errorOver(summary(s), summary(own_), kParetoLight) - 1.0;
       return fmt::format("The next {} on that front is {}: {}{}.", which, settingLabel(result_.settings[s]),
                          against(s, kParetoLight),
                          std::abs(change) < error.high / error.low - 1.0 ? ", less than the seeds move" : "");

@@ -32,59 +32,6 @@ ParetoOptions smallOptions() {
   return o;
 }
 
-TEST(Pareto, SpreadOfRepeats) {
-  const Spread odd = spreadOf({3.0, 1.0, 2.0});
-  EXPECT_EQ(odd.median, 2.0);
-  EXPECT_EQ(odd.low, 1.0);
-  EXPECT_EQ(odd.high, 3.0);
-  EXPECT_EQ(spreadOf({4.0, 1.0}).median, 2.5);
-  EXPECT_EQ(spreadOf({7.0}).median, 7.0);
-  EXPECT_EQ(spreadOf({1.0, kInfinity, kInfinity}).median, kInfinity);
-  EXPECT_EQ(spreadOf({kInfinity, kInfinity}).median, kInfinity);
-}
-
-TEST(Pareto, SummariesOfKnownRuns) {
-  // A: three entries, three repeats; B: the first entry once, and best there
-  const std::vector<SettingRuns> runs{{{run(1, 1), run(2, 2), run(6, 9)},
-                                       {
-                                           run(2, 2),
-                                           run(2, 2),
-                                           run(2, 8),
-                                       },
-                                       {run(9, 4), run(1, 4), run(2, 8, false)}},
-                                      {{run(2, 0.5)}}};
-  const std::vector<SettingSummary> s = summarizePareto(runs);
-  EXPECT_EQ(s[0].entries, 3u);
-  EXPECT_EQ(s[0].runs, 9u);
-  EXPECT_EQ(s[0].notConverged, 1u);
-  EXPECT_EQ(s[0].nonFinite, 0u);
-  EXPECT_DOUBLE_EQ(s[0].cpuSeconds.median, 3.0);  // means over entries: 3, 2, 4
-  EXPECT_DOUBLE_EQ(s[0].cpuSeconds.low, 2.0);
-  EXPECT_DOUBLE_EQ(s[0].cpuSeconds.high, 4.0);
-  // best: 0.5, 2, 8; ratios of A: 2 1 9/8; 4 1 1; 8 2 1
-  const SettingErrors& a = s[0].errors[0];
-  EXPECT_DOUBLE_EQ(a.ratio.low, std::cbrt(2.25));
-  EXPECT_DOUBLE_EQ(a.ratio.median, std::cbrt(4.0));
-  EXPECT_DOUBLE_EQ(a.ratio.high, std::cbrt(16.0));
-  EXPECT_DOUBLE_EQ(a.value, std::cbrt(4.0 * 8.0));  // the geometric mean of 2, 2, 8
-  EXPECT_FALSE(a.front);                            // B is cheaper and better
-  // B at the entries it did not see: as the best of them
-  EXPECT_EQ(s[1].entries, 1u);
-  EXPECT_DOUBLE_EQ(s[1].errors[0].ratio.median, 1.0);
-  EXPECT_DOUBLE_EQ(s[1].errors[0].value, 2.0);
-  EXPECT_TRUE(s[1].errors[0].front);
-}
-
-TEST(Pareto, AFailedFitIsNotHiddenByTheOthers) {
-  const std::vector<SettingSummary> s =
-      summarizePareto({{{run(1, 1), run(1, kInfinity, false)}}, {{run(2, 3), run(2, 3)}}});
-  EXPECT_EQ(s[0].nonFinite, 1u);
-  EXPECT_EQ(s[0].errors[0].ratio.median, kInfinity);
-  EXPECT_FALSE(s[0].errors[0].front);
-  EXPECT_DOUBLE_EQ(s[1].errors[0].ratio.median, std::sqrt(3.0));
-  EXPECT_TRUE(s[1].errors[0].front);
-}
-
 TEST(Pareto, ErrorsDoNotDependOnThreads) {
   ParetoOptions options = smallOptions();
   options.fitters = {"moments", "light", "l3"};
@@ -187,6 +134,11 @@ TEST(ParetoText, SaysWhatBeatsTheDefault) {
           "error)"))
       << d[0].why;
   EXPECT_TRUE(has("it is on the front of none")) << d[0].why;
+}
+
+TEST(ParetoText, SaysThatTheDefaultFailed) {
+  EXPECT_EQ(explainDefaults(TableKind::kAnisotropic, threeSettings(0.020, kInfinity)).at(0).why,
+            "light, 1024 lights (standard) is on no front: 1 of its 1 fits failed.");
 }
 
 TEST(ParetoText, WithoutTheDefaultThereIsNothingToSay) {
