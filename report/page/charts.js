@@ -57,7 +57,8 @@ function addChart(parent, id, option, label) {
       if (box.clientWidth === 0) return;
       // two pixels for one, so that print is sharp
       instance ??= echarts.init(box, null, { renderer: 'canvas', devicePixelRatio: Math.max(2, devicePixelRatio) });
-      instance.resize();
+      // a resize draws everything once more
+      if (instance.getWidth() !== box.clientWidth || instance.getHeight() !== box.clientHeight) instance.resize();
       instance.setOption({ ...frame(theme()), ...option(theme(), box.clientWidth) }, { notMerge: true });
       box.setAttribute('aria-label', label());
     },
@@ -85,6 +86,8 @@ function setPrinting(on) {
   document.documentElement.classList.toggle('printing', on);
   document.documentElement.style.setProperty('--print-width', `${printWidth}px`);
   redrawNow();
+  // ECharts paints in the next frame, which print does not wait for
+  charts.forEach((chart) => chart.instance?.getZr().flush());
 }
 
 function watchSurroundings() {

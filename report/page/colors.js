@@ -6,6 +6,15 @@ const viridis = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80
 // from blue, less, over neutral to orange, more: told apart with any colour vision
 const blueOrange = ['#1b4f9c', '#7fadd9', '#f2f2f0', '#f2a65a', '#b34700'];
 
+// The colour at `at`, 0..1, of evenly spaced stops; beyond the ends it is theirs.
+function colorAt(stops, at) {
+  const place = Math.min(1, Math.max(0, at)) * (stops.length - 1);
+  const i = Math.min(stops.length - 2, Math.floor(place));
+  const channel = (stop, c) => parseInt(stop.slice(1 + 2 * c, 3 + 2 * c), 16);
+  const mixed = [0, 1, 2].map((c) => Math.round(channel(stops[i], c) + (place - i) * (channel(stops[i + 1], c) - channel(stops[i], c))));
+  return `rgb(${mixed.join(',')})`;
+}
+
 // Ticks 1, 2, 5 times powers of ten within [low, high], thinned to powers of ten or to every n-th of them.
 function logTicks(low, high, most = 7) {
   const ticks = (factors) => {

@@ -12,10 +12,9 @@ function fillHeader(report) {
   const verdicts = report.tables.flatMap((table) => table.verdicts);
   const failed = verdicts.filter((verdict) => !verdict.pass).length;
   const names = report.tables.flatMap((table, i) => [i > 0 ? ', ' : null, element('span', {}, table.name)]);
-  const result = failed > 0
-    ? element('p', { class: 'result fail' }, `\u2717 ${failed} of ${verdicts.length} checks fail`)
-    : element('p', { class: 'result pass' }, verdicts.length > 0
-      ? `\u2713 all ${verdicts.length} checks pass` : 'no checks were made');
+  let result = element('p', { class: 'result' }, 'no checks were made');
+  if (failed > 0) result = element('p', { class: 'result fail' }, `\u2717 ${failed} of ${verdicts.length} checks fail`);
+  else if (verdicts.length > 0) result = element('p', { class: 'result pass' }, `\u2713 all ${verdicts.length} checks pass`);
   const facts = report.tables.map((table) => element('li', {},
     `${tableTitle(table)}: ${countText(table.nodes)} nodes`,
     table.against.length > 0 ? `, against ${table.against.join(', ')}` : null));

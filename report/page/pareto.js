@@ -61,6 +61,11 @@ function paretoOption(colors, width, pareto, metric) {
   const [low, high] = settings.length > 0 ? rangeOf(ratios) : [1, 10];
   const narrow = width < 500;
   const place = (setting) => [Math.log10(setting.cpu_seconds.median), Math.log10(setting.errors[metric].ratio)];
+  // beside the point near the edges of the chart, where the text would be cut
+  const labelSide = (x) => {
+    const at = (x - Math.log10(left)) / Math.log10(right / left);
+    return at < 0.2 ? 'right' : at > 0.8 ? 'left' : 'top';
+  };
   const defaults = settings.filter((setting) => setting.default_of.length > 0);
   return {
     grid: { left: narrow ? 58 : 66, right: 18, top: 14, bottom: 50 },
@@ -81,12 +86,11 @@ function paretoOption(colors, width, pareto, metric) {
               ...(setting.default_of.length > 0 ? [`default of ${setting.default_of.join(', ')}`] : []));
           } } };
       }),
-      { type: 'scatter', z: 5, silent: true, symbol: 'circle', symbolSize: 20, data: defaults.map(place), tooltip: { show: false },
+      { type: 'scatter', z: 5, silent: true, symbol: 'circle', symbolSize: 20, tooltip: { show: false },
         itemStyle: { opacity: 1, color: 'transparent', borderColor: colors.mark, borderWidth: 2 },
-        label: { show: true, position: 'top', distance: 4, color: colors.text, fontSize: 11, fontWeight: 'bold',
-          backgroundColor: colors.paper, padding: [1, 3], opacity: 1, formatter: (item) => defaults[item.dataIndex].default_of.join(', ') },
-        labelLayout: (label) => ({ moveOverlap: 'shiftY',
-          x: Math.min(Math.max(label.labelRect.x, 2), width - label.labelRect.width - 2), align: 'left' }) }],
+        data: defaults.map((setting) => ({ value: place(setting), label: { position: labelSide(place(setting)[0]) } })),
+        label: { show: true, distance: 5, color: colors.text, fontSize: 11, fontWeight: 'bold', backgroundColor: colors.paper,
+          padding: [1, 3], formatter: (item) => defaults[item.dataIndex].default_of.join(', ') } }],
   };
 }
 

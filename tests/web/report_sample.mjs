@@ -211,7 +211,7 @@ export const samples = {
     const table = sampleTable('anisotropic', 1, images, { name: strangeName, against: [markupName, 'b.npy'], holes: true, lobes: 2 });
     Object.assign(table, { provenance: { tool: '', tool_version: '', command: '', seed: null, options: {} }, verdicts: [] });
     for (const result of table.scores[0].results) result.metrics.SW1 = summary([null, null]);
-    table.maps[0].values = table.maps[0].values.map(() => null);
+    table.maps[table.maps.length - 3].values.fill(null);
     return { report: report([table], { pareto: [samplePareto('aniso')], stability: sampleStability(0) }), images };
   },
 };

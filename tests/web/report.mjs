@@ -1,0 +1,137 @@
+// The page of `ltcfit report` in headless Chromium, from disk: a real one, made-up ones, and broken ones.
+//   node report.mjs REPORT_HTML SOURCE_DIR BUILD_WEB CHROMIUM PICTURES
+// An empty REPORT_HTML leaves the real one out.
+import { mkdir, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { load } from './packages.mjs';
+import { keyboard, layout, print, rows, schemes, selectors, settled, sliders, standing } from './report_checks.mjs';
+import { fillPage } from './report_fill.mjs';
+import { samples } from './report_sample.mjs';
+
+const [reportPath, sourceDir, buildWeb, chromiumPath, pictures] = process.argv.slice(2);
+
+let failures = 0;
+function fail(text) {
+  console.log(`FAILED: ${text}`);
+  failures++;
+}
+
+// A page with all that it complains about or asks for besides its own file.
+async function open(browser, path, width) {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, reducedMotion: 'reduce' });
+  const page = await context.newPage();
+  const noises = [];
+  const url = pathToFileURL(path).href;
+  page.on('console', (message) => {
+    if (['error', 'warning', 'assert'].includes(message.type())) noises.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => noises.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    if (request.url() !== url && !request.url().startsWith('data:')) noises.push(`a request to ${request.url()}`);
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset.ready === 'yes', null, { timeout: 20000 })
+    .catch(() => noises.push('the page does not get ready'));
+  return { page, noises };
+}
+
+// Runs the checks on the page, at a width.
+async function inspect(browser, path, width, checks) {
+  const { page, noises } = await open(browser, path, width);
+  const found = [];
+  if (!noises.includes('the page does not get ready')) {
+    for (const check of checks) found.push(...await check(page));
+  }
+  await page.context().close();
+  return [...noises, ...found].map((text) => `${width} px: ${text}`);
+}
+
+async function photograph(browser, path, name) {
+  for (const width of [1280, 390]) {
+    for (const colorScheme of ['light', 'dark']) {
+      const { page } = await open(browser, path, width);
+      await page.emulateMedia({ colorScheme });
+      await settled(page);
+      await page.screenshot({ path: join(pictures, `${name}-${width}-${colorScheme}.png`), fullPage: true });
+      if (width === 1280 && colorScheme === 'light') {
+        await page.pdf({ path: join(pictures, `${name}.pdf`), preferCSSPageSize: true, printBackground: true });
+      }
+      await page.context().close();
+    }
+  }
+}
+
+// What is broken, the text that is replaced in a good page (its first occurrence), and the check that must notice.
+const damages = [
+  ['a figure that is not a number', 'return value.toExponential(', "return 'NaN' + value.toExponential(", standing],
+  ['a section left out', 'stabilitySection(report.stability), ', '', standing],
+  ['an empty map', 'if (!isNumber(value)) return null;', 'return null;', standing],
+  ['a chart that is not drawn', 'instance.setOption(', 'void (', standing],
+  ['pictures left out', "const images = readJson('images')", 'const images = {}', standing],
+  ['a failed check that looks passed', 'if (!verdict.pass) made', 'if (false) made', standing],
+  ['labels over one another', 'axisLabel: { ...style.axisLabel, interval }',
+    'axisLabel: { ...style.axisLabel, hideOverlap: false, interval: () => true }', standing],
+  ['a wide element', '<footer', '<div style="width: 2000px">wide</div><footer', layout],
+  ['a table that does not scroll', '.scroll { overflow: auto;', '.scroll {', layout],
+  ['a picture from elsewhere', '<footer', '<img alt="" src="https://example.org/picture.png"><footer', () => []],
+  ['a picture from elsewhere, policy removed', /<meta http-equiv="Content-Security-Policy"[^>]*>([^]*)<footer/,
+    '$1<img alt="" src="https://example.org/picture.png"><footer', () => []],
+  ['an error', '\nbuild();', "\nbuild();\nthrow new Error('late');", () => []],
+  ['a warning', '\nbuild();', "\nbuild();\nconsole.warn('late');", () => []],
+  ['a slider without effect', 'changed(Number(input.value));', '', sliders],
+  ['a slider without text', 'show();\n    changed(Number', 'changed(Number', sliders],
+  ['a selector without effect', "addEventListener('change', () => changed(select.value))", "addEventListener('change', () => 0)", selectors],
+  ['columns that do not sort', 'const sign = descending ? -1 : 1;', 'const sign = 0;', rows],
+  ['a filter without effect', "row.fitter === state.fitter)", 'true)', rows],
+  ['arrow keys without effect', 'readout.textContent = describe', 'void describe', keyboard],
+  ['no dark colours', '@media screen and (prefers-color-scheme: dark) {', '@media (width: 1px) {', schemes],
+  ['charts that keep their colours', "darkness.addEventListener('change', redrawSoon);", '', schemes],
+  ['controls in print', '.slider input, details', 'details', print],
+];
+
+await mkdir(pictures, { recursive: true });
+const work = await mkdtemp(join(tmpdir(), 'ltcfit-report-'));
+const { chromium } = (await load(buildWeb, 'playwright-core')).default;
+const browser = await chromium.launch({
+  executablePath: chromiumPath,
+  args: ['--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--host-resolver-rules=MAP * ~NOTFOUND'],
+});
+try {
+  const pages = reportPath ? { report: reportPath } : {};
+  for (const [name, make] of Object.entries(samples)) {
+    pages[name] = join(work, `${name}.html`);
+    await writeFile(pages[name], await fillPage(sourceDir, buildWeb, make()));
+  }
+  const all = [standing, layout, keyboard, selectors, sliders, rows, schemes, print, standing, layout];
+  for (const [name, path] of Object.entries(pages)) {
+    const found = [...await inspect(browser, path, 1280, all),
+      ...await inspect(browser, path, 390, [standing, layout, sliders, layout])];
+    for (const text of found) fail(`${name}: ${text}`);
+    console.log(`${name}: ${found.length === 0 ? 'good' : `${found.length} problems`}`);
+    if (name !== 'bare') await photograph(browser, path, `report-${name}`);
+  }
+
+  // the made-up report has all that is broken here, whatever the real one holds
+  const good = await readFile(pages.full, 'utf8');
+  for (const [what, text, other, check] of damages) {
+    const broken = typeof text === 'string' ? good.replace(text, () => other) : good.replace(text, other);
+    if (broken === good) {
+      fail(`nothing to replace for: ${what}`);
+      continue;
+    }
+    const path = join(work, 'broken.html');
+    await writeFile(path, broken);
+    const found = await inspect(browser, path, 1280, [check]);
+    if (found.length === 0) fail(`nobody notices: ${what}`);
+    else console.log(`  caught: ${what}: ${found[0]}${found.length > 1 ? ` and ${found.length - 1} more` : ''}`);
+  }
+} finally {
+  await browser.close();
+  await rm(work, { recursive: true });
+}
+console.log(`pictures in ${pictures}`);
+if (failures > 0) console.log(`${failures} failed`);
+process.exitCode = failures > 0 ? 1 : 0;
