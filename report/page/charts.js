@@ -1,17 +1,20 @@
 // Charts: one ECharts instance each, redrawn when the width, the colour scheme or the medium changes.
 
 const charts = [];
-const stillness = matchMedia('(prefers-reduced-motion: reduce)');
 const darkness = matchMedia('(prefers-color-scheme: dark)');
 const paper = matchMedia('print');
-const printWidth = 660;   // pixels: what A4 leaves between its margins
+const printWidth = 660; // pixels: what A4 leaves between its margins
 
 function theme() {
   const style = getComputedStyle(document.documentElement);
   const color = (name) => style.getPropertyValue(`--${name}`).trim();
   return {
-    text: color('text'), quiet: color('quiet'), line: color('line'), paper: color('paper'), hole: color('hole'),
-    accent: color('accent'), mark: color('mark'),
+    text: color('text'),
+    quiet: color('quiet'),
+    line: color('line'),
+    paper: color('paper'),
+    hole: color('hole'),
+    mark: color('mark'),
     series: ['series-0', 'series-1', 'series-2', 'series-3', 'series-4'].map(color),
     font: style.getPropertyValue('font-family'),
   };
@@ -22,15 +25,25 @@ function frame(colors) {
   return {
     animation: false,
     textStyle: { fontFamily: colors.font, color: colors.text, fontSize: 12 },
-    tooltip: { confine: true, backgroundColor: colors.paper, borderColor: colors.line, transitionDuration: 0,
-      textStyle: { color: colors.text, fontSize: 12, fontFamily: colors.font } },
+    tooltip: {
+      confine: true,
+      backgroundColor: colors.paper,
+      borderColor: colors.line,
+      transitionDuration: 0,
+      extraCssText: 'max-width: min(340px, calc(100vw - 40px)); white-space: normal; overflow-wrap: anywhere;',
+      textStyle: { color: colors.text, fontSize: 12, fontFamily: colors.font },
+    },
   };
 }
 
 function axisStyle(colors, name, gap) {
   return {
-    name, nameLocation: 'middle', nameGap: gap, nameTextStyle: { color: colors.text, fontSize: 12 },
-    axisLine: { show: true, onZero: false, lineStyle: { color: colors.quiet } }, axisTick: { lineStyle: { color: colors.quiet } },
+    name,
+    nameLocation: 'middle',
+    nameGap: gap,
+    nameTextStyle: { color: colors.text, fontSize: 12 },
+    axisLine: { show: true, onZero: false, lineStyle: { color: colors.quiet } },
+    axisTick: { lineStyle: { color: colors.quiet } },
     axisLabel: { color: colors.text, fontSize: 11, hideOverlap: true },
     splitLine: { lineStyle: { color: colors.line } },
   };
@@ -40,9 +53,14 @@ function axisStyle(colors, name, gap) {
 function logAxis(colors, name, gap, low, high, most, format = numberText) {
   const style = axisStyle(colors, name, gap);
   const at = logTicks(low, high, most).map((tick) => Math.log10(tick));
-  return { ...style, type: 'value', min: Math.log10(low), max: Math.log10(high),
+  return {
+    ...style,
+    type: 'value',
+    min: Math.log10(low),
+    max: Math.log10(high),
     axisLabel: { ...style.axisLabel, customValues: at, formatter: (value) => format(10 ** value) },
-    axisTick: { ...style.axisTick, customValues: at } };
+    axisTick: { ...style.axisTick, customValues: at },
+  };
 }
 
 // Adds a chart to `parent`. option(colors, width) gives what ECharts draws, label() the text that stands for it.
@@ -52,7 +70,9 @@ function addChart(parent, id, option, label) {
   let instance = null;
   const chart = {
     box,
-    get instance() { return instance; },
+    get instance() {
+      return instance;
+    },
     draw() {
       if (box.clientWidth === 0) return;
       // two pixels for one, so that print is sharp
@@ -102,5 +122,9 @@ function watchSurroundings() {
 }
 
 // Tooltips as elements, never as markup.
-const tooltipOf = (...lines) => element('div', {}, lines.map((line, i) =>
-  (i === 0 ? element('strong', {}, line) : element('div', {}, line))));
+const tooltipOf = (...lines) =>
+  element(
+    'div',
+    {},
+    lines.map((line, i) => (i === 0 ? element('strong', {}, line) : element('div', {}, line))),
+  );

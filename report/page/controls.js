@@ -5,7 +5,11 @@ let controlCount = 0;
 // options: [[value, text]]; changed(value) is called with the value chosen.
 function addSelect(parent, label, options, changed, chosen = options[0][0]) {
   const id = `control-${++controlCount}`;
-  const select = element('select', { id }, options.map(([value, text]) => element('option', { value }, text)));
+  const select = element(
+    'select',
+    { id },
+    options.map(([value, text]) => element('option', { value }, text)),
+  );
   select.value = chosen;
   select.addEventListener('change', () => changed(select.value));
   const box = element('div', { class: 'control' }, element('label', { for: id }, label), select);
@@ -45,7 +49,11 @@ function addSlider(parent, label, changed) {
 
 // A legend of lines or symbols: entries are [svg, text].
 function legendOf(entries) {
-  return element('ul', { class: 'legend' }, entries.map(([picture, text]) => element('li', {}, picture, ' ', text)));
+  return element(
+    'ul',
+    { class: 'legend' },
+    entries.map(([picture, text]) => element('li', {}, picture, ' ', text)),
+  );
 }
 
 function sample(...shapes) {

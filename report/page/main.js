@@ -5,9 +5,16 @@ function readJson(id) {
 }
 
 function tableSection(table, images, metrics, id) {
-  return section(id, 2, tableTitle(table), scoreSection(table, metrics, id), mapSection(table, metrics, id),
-    table.smoothness ? smoothnessSection(table, id) : null, histogramSection(table, metrics, id),
-    lobeSection(table, images, metrics, id));
+  return section(
+    id,
+    2,
+    tableTitle(table),
+    scoreSection(table, metrics, id),
+    mapSection(table, metrics, id),
+    table.smoothness ? smoothnessSection(table, id) : null,
+    histogramSection(table, metrics, id),
+    lobeSection(table, images, metrics, id),
+  );
 }
 
 function build() {
@@ -15,13 +22,23 @@ function build() {
   const images = readJson('images');
   const main = document.getElementById('content');
   fillHeader(report);
-  const parts = [verdictSection(report),
+  const parts = [
+    verdictSection(report),
     ...report.tables.map((table, i) => tableSection(table, images, report.metrics, `table-${i}`)),
-    paretoSection(report.pareto), stabilitySection(report.stability), metricSection(report.metrics), provenanceSection(report)];
+    paretoSection(report.pareto),
+    stabilitySection(report.stability),
+    metricSection(report.metrics),
+    provenanceSection(report),
+  ];
   const heading = (part) => part.querySelector('h2, h3').textContent;
   main.replaceChildren(...parts);
-  fillContents(parts.map((part) => [part.id, heading(part),
-    [...part.querySelectorAll(':scope > section')].map((inner) => [inner.id, heading(inner)])]));
+  fillContents(
+    parts.map((part) => [
+      part.id,
+      heading(part),
+      [...part.querySelectorAll(':scope > section')].map((inner) => [inner.id, heading(inner)]),
+    ]),
+  );
   fillFooter(report);
   // only now do the boxes have a width
   redrawNow();

@@ -12,27 +12,43 @@ function byKey(entries, key) {
 function mapSection(table, metrics, id) {
   const made = section(`${id}-maps`, 3, 'Error maps');
   const groups = byKey(table.maps, 'metric');
-  const quantities = metrics.filter((metric) => groups.has(metric.name))
+  const quantities = metrics
+    .filter((metric) => groups.has(metric.name))
     .map(({ name, unit }) => ({ key: name, name, unit, values: groups.get(name) }));
   if (quantities.length === 0) {
     made.append(note('No values at the nodes.'));
     return made;
   }
-  made.append(note('Each cell is a node. One colour scale for all tables and all slices; the lowest 2 % share a colour.'));
+  made.append(
+    note('Each cell is a node. One colour scale for all tables and all slices; the lowest 2 % share a colour.'),
+  );
   addNodeMap(made, table, { id: `${id}-map`, what: 'Metric', quantities });
-  if (table.against.length === 0) made.append(absent('Maps of another table and of the ratio to it', '--against FILE'));
+  if (table.against.length === 0)
+    made.append(absent('Maps of another table and of the ratio to it', '--against FILE'));
   return made;
 }
 
 function smoothnessTable(table) {
-  const columns = [{ title: 'Along', head: true }, { title: 'Table', class: 'name' },
-    ...statistics.map((title) => ({ title, number: true })), { title: 'steps', number: true },
-    { title: 'not finite', number: true }];
-  const rows = table.smoothness.axes.flatMap(({ axis, results }) => results.map(({ table: name, summary }, i) =>
-    [i === 0 ? axis : '', name, ...statistics.map((s) => numberText(summary[s])), countText(summary.count),
-      countText(summary.non_finite)]));
-  return scrolling(tableOf(withUnit('Step to the next node', table.smoothness.unit), columns, rows),
-    `Smoothness of ${table.name}`);
+  const columns = [
+    { title: 'Along', head: true },
+    { title: 'Table', class: 'name' },
+    ...statistics.map((title) => ({ title, number: true })),
+    { title: 'steps', number: true },
+    { title: 'not finite', number: true },
+  ];
+  const rows = table.smoothness.axes.flatMap(({ axis, results }) =>
+    results.map(({ table: name, summary }, i) => [
+      i === 0 ? axis : '',
+      name,
+      ...statistics.map((s) => numberText(summary[s])),
+      countText(summary.count),
+      countText(summary.non_finite),
+    ]),
+  );
+  return scrolling(
+    tableOf(withUnit('Step to the next node', table.smoothness.unit), columns, rows),
+    `Smoothness of ${table.name}`,
+  );
 }
 
 function smoothnessSection(table, id) {
@@ -40,8 +56,12 @@ function smoothnessSection(table, id) {
   const made = section(`${id}-smoothness`, 3, 'Smoothness between neighbours', note(smoothness.meaning));
   made.append(smoothnessTable(table));
   const groups = byKey(smoothness.maps, 'axis');
-  const quantities = [...groups].map(([axis, values]) =>
-    ({ key: axis, name: `step along ${axis}`, unit: smoothness.unit, values }));
+  const quantities = [...groups].map(([axis, values]) => ({
+    key: axis,
+    name: `step along ${axis}`,
+    unit: smoothness.unit,
+    values,
+  }));
   if (quantities.length > 0) addNodeMap(made, table, { id: `${id}-steps`, what: 'Axis', quantities });
   return made;
 }

@@ -5,18 +5,26 @@
 
 const defaultAxes = (axes) => {
   const at = (name) => axes.findIndex((axis) => axis.name === name);
-  return axes.length === 2 ? [at('alpha') >= 0 ? at('alpha') : 1, at('theta') >= 0 ? at('theta') : 0]
+  return axes.length === 2
+    ? [at('alpha') >= 0 ? at('alpha') : 1, at('theta') >= 0 ? at('theta') : 0]
     : [at('alpha') >= 0 ? at('alpha') : 0, at('theta') >= 0 ? at('theta') : 1];
 };
 
 function viewsOf(table, quantity) {
   const names = [table.name, ...table.against].filter((name) => quantity.values.has(name));
-  const views = names.map((name, i) => ({ key: `table-${i}`, text: name, values: quantity.values.get(name), ratio: false }));
+  const views = names.map((name, i) => ({
+    key: `table-${i}`,
+    text: name,
+    values: quantity.values.get(name),
+    ratio: false,
+  }));
   const ours = quantity.values.get(table.name);
   for (const [i, name] of table.against.entries()) {
     const theirs = quantity.values.get(name);
     if (!ours || !theirs) continue;
-    const values = ours.map((value, k) => (isNumber(value) && isNumber(theirs[k]) && theirs[k] > 0 ? value / theirs[k] : null));
+    const values = ours.map((value, k) =>
+      isNumber(value) && isNumber(theirs[k]) && theirs[k] > 0 ? value / theirs[k] : null,
+    );
     views.push({ key: `ratio-${i}`, text: `${table.name} / ${name}`, values, ratio: true });
   }
   return views;
@@ -46,32 +54,55 @@ function mapOption(colors, width, { axes, shown, cells, scale, stops, describe }
   const category = (axis, gap, most) => {
     const style = axisStyle(colors, withUnit(axis.name, axis.unit), gap);
     const last = axis.values.length - 1;
-    const step = last / Math.min(last, most);
-    const labelled = new Set(Array.from({ length: Math.round(last / step) + 1 }, (_, i) => Math.round(i * step)));
-    const interval = (index) => labelled.has(index);
-    return { ...style, type: 'category', data: axis.values.map((value) => numberText(value, 2)), splitLine: { show: false },
-      axisLabel: { ...style.axisLabel, interval }, axisTick: { ...style.axisTick, interval, alignWithLabel: true } };
+    const step = Math.ceil(last / most);
+    // every step-th node and the last one, whose neighbour makes room
+    const interval = (index) => index === last || (index % step === 0 && last - index >= step);
+    return {
+      ...style,
+      type: 'category',
+      data: axis.values.map((value) => numberText(value, 2)),
+      splitLine: { show: false },
+      axisLabel: { ...style.axisLabel, interval },
+      axisTick: { ...style.axisTick, interval, alignWithLabel: true },
+    };
   };
   return {
-    grid: { left: width < 500 ? 54 : 62, right: 10, top: 8, bottom: 46, show: true, backgroundColor: colors.hole,
-      borderWidth: 0 },
+    grid: {
+      left: width < 500 ? 54 : 62,
+      right: 10,
+      top: 8,
+      bottom: 46,
+      show: true,
+      backgroundColor: colors.hole,
+      borderWidth: 0,
+    },
     xAxis: category(xAxis, 28, width < 500 ? 5 : 9),
     yAxis: category(yAxis, width < 500 ? 38 : 44, 9),
     tooltip: { ...frame(colors).tooltip, formatter: (item) => tooltipOf(...describe(cells[item.dataIndex])) },
     // Not ECharts' own heat map: 6.1.0 draws that in slices of 15 ms whatever `progressive` says, and print takes the
     // first of them.
-    series: [{ type: 'custom', progressive: 0, data: cells.map((cell) => [cell.x, cell.y]),
-      renderItem: ({ dataIndex }, api) => {
-        const { x, y, value } = cells[dataIndex];
-        if (!isNumber(value)) return null;
-        const center = api.coord([x, y]);
-        const size = api.size([1, 1]);
-        // edges at whole pixels, so that no seams show
-        const [x0, y0] = center.map((at, i) => Math.round(at - size[i] / 2));
-        const [x1, y1] = center.map((at, i) => Math.round(at + size[i] / 2));
-        return { type: 'rect', shape: { x: x0, y: y0, width: x1 - x0, height: y1 - y0 }, style: { fill: colorOf(value) },
-          emphasis: { style: { stroke: colors.mark, lineWidth: 2 } } };
-      } }],
+    series: [
+      {
+        type: 'custom',
+        progressive: 0,
+        data: cells.map((cell) => [cell.x, cell.y]),
+        renderItem: ({ dataIndex }, api) => {
+          const { x, y, value } = cells[dataIndex];
+          if (!isNumber(value)) return null;
+          const center = api.coord([x, y]);
+          const size = api.size([1, 1]);
+          // edges at whole pixels, so that no seams show
+          const [x0, y0] = center.map((at, i) => Math.round(at - size[i] / 2));
+          const [x1, y1] = center.map((at, i) => Math.round(at + size[i] / 2));
+          return {
+            type: 'rect',
+            shape: { x: x0, y: y0, width: x1 - x0, height: y1 - y0 },
+            style: { fill: colorOf(value) },
+            emphasis: { style: { stroke: colors.mark, lineWidth: 2 } },
+          };
+        },
+      },
+    ],
   };
 }
 
@@ -104,19 +135,33 @@ function steerByKeys(chart, readout, size, describe) {
 }
 
 function worstTable(table, view, title) {
-  const order = view.values.map((value, node) => ({ value, node })).filter(({ value }) => isNumber(value))
-    .sort((a, b) => b.value - a.value).slice(0, 10);
-  const columns = [...table.axes.map((axis) => ({ title: withUnit(axis.name, axis.unit), number: true })),
-    { title, number: true }];
-  return tableOf(`The ten highest of all ${countText(table.nodes)} nodes, ${view.text}`, columns, order.map(({ value, node }) =>
-    [...nodeIndices(table.axes, node).map((index, a) => numberText(table.axes[a].values[index])),
-      view.ratio ? ratioText(value) : numberText(value)]));
+  const order = view.values
+    .map((value, node) => ({ value, node }))
+    .filter(({ value }) => isNumber(value))
+    .sort((a, b) => b.value - a.value)
+    .slice(0, 10);
+  const columns = [
+    ...table.axes.map((axis) => ({ title: withUnit(axis.name, axis.unit), number: true })),
+    { title, number: true },
+  ];
+  return tableOf(
+    `The ten highest of all ${countText(table.nodes)} nodes, ${view.text}`,
+    columns,
+    order.map(({ value, node }) => [
+      ...nodeIndices(table.axes, node).map((index, a) => numberText(table.axes[a].values[index])),
+      view.ratio ? ratioText(value) : numberText(value),
+    ]),
+  );
 }
 
 function addNodeMap(parent, table, { id, what, quantities }) {
   const axes = table.axes;
-  const state = { quantity: quantities[0], view: null, shown: defaultAxes(axes),
-    fixed: axes.map((axis) => Math.floor((axis.values.length - 1) / 2)) };
+  const state = {
+    quantity: quantities[0],
+    view: null,
+    shown: defaultAxes(axes),
+    fixed: axes.map((axis) => Math.floor((axis.values.length - 1) / 2)),
+  };
   const controls = element('div', { class: 'controls' });
   const left = element('div', { class: 'map' });
   const legend = element('div', {});
@@ -128,46 +173,77 @@ function addNodeMap(parent, table, { id, what, quantities }) {
   let scale = null;
   const title = () => withUnit(state.quantity.name, state.quantity.unit);
   const format = () => (state.view.ratio ? ratioText : numberText);
-  const describe = (cell) => [nodeText(axes, cell.node), ...viewsOfNow.map((view) =>
-    `${view.text}: ${(view.ratio ? ratioText : numberText)(view.values[cell.node])}`)];
+  const describe = (cell) => [
+    nodeText(axes, cell.node),
+    ...viewsOfNow.map((view) => `${view.text}: ${(view.ratio ? ratioText : numberText)(view.values[cell.node])}`),
+  ];
   let viewsOfNow = [];
-  const fixedText = () => axes.map((axis, a) => (state.shown.includes(a) ? null : axisValueText(axis, state.fixed[a])))
-    .filter(Boolean).join(', ');
+  const fixedText = () =>
+    axes
+      .map((axis, a) => (state.shown.includes(a) ? null : axisValueText(axis, state.fixed[a])))
+      .filter(Boolean)
+      .join(', ');
   const label = () => {
     const numbers = cells.filter((cell) => isNumber(cell.value));
     const worst = numbers.reduce((best, cell) => (best === null || cell.value > best.value ? cell : best), null);
     const over = state.shown.map((a) => axes[a].name).join(' and ');
-    return `Map of ${title()}, ${state.view.text}, over ${over}${fixedText() ? `, at ${fixedText()}` : ''}. ` +
+    return (
+      `Map of ${title()}, ${state.view.text}, over ${over}${fixedText() ? `, at ${fixedText()}` : ''}. ` +
       (worst ? `Highest ${format()(worst.value)} at ${nodeText(axes, worst.node)}. ` : 'No values. ') +
-      'Arrow keys read single nodes.';
+      'Arrow keys read single nodes.'
+    );
   };
 
   const heading = element('p', { class: 'chart-title' });
   left.append(heading);
-  const chart = addChart(left, id, (colors, width) => mapOption(colors, width, { axes, shown: state.shown, cells, scale,
-    stops: state.view.ratio ? blueOrange : viridis, describe }), label);
+  const chart = addChart(
+    left,
+    id,
+    (colors, width) =>
+      mapOption(colors, width, {
+        axes,
+        shown: state.shown,
+        cells,
+        scale,
+        stops: state.view.ratio ? blueOrange : viridis,
+        describe,
+      }),
+    label,
+  );
   chart.box.classList.add('square');
   left.append(legend, readout);
-  const leave = steerByKeys(chart, readout, () => state.shown.map((a) => axes[a].values.length),
-    (index) => describe(cells[index]));
+  const leave = steerByKeys(
+    chart,
+    readout,
+    () => state.shown.map((a) => axes[a].values.length),
+    (index) => describe(cells[index]),
+  );
 
   const redraw = () => {
     leave();
     cells = cellsOf(axes, state.view.values, state.shown, state.fixed);
     heading.textContent = [`${title()}, ${state.view.text}`, fixedText()].filter(Boolean).join('; ');
     const values = cells.map((cell) => cell.value).filter(isNumber);
-    readout.textContent = values.length === 0 ? 'No values here.'
-      : `Shown: ${format()(values.reduce((a, b) => Math.min(a, b)))} to ${format()(values.reduce((a, b) => Math.max(a, b)))}.`;
+    readout.textContent =
+      values.length === 0
+        ? 'No values here.'
+        : `Shown: ${format()(Math.min(...values))} to ${format()(Math.max(...values))}.`;
     chart.draw();
   };
   const showView = () => {
     // one scale for all tables and slices, so that they can be compared
     scale = state.view.ratio ? ratioScale(state.view.values) : errorScale([...state.quantity.values.values()]);
     const holes = state.view.values.some((value) => !isNumber(value));
-    const legendTitle = state.view.ratio ? `${state.quantity.name}: ratio, blue where ${table.name} is better` : title();
-    legend.replaceChildren(logColorBar(`${legendTitle} (logarithmic)`, state.view.ratio ? blueOrange : viridis, scale, format()),
-      ...(holes ? [element('p', { class: 'holes' }, element('span', { class: 'hole' }), ' no value')] : []));
-    side.replaceChildren(scrolling(worstTable(table, state.view, state.view.ratio ? 'ratio' : title()), 'Highest values'));
+    const legendTitle = state.view.ratio
+      ? `${state.quantity.name}: ratio, blue where ${table.name} is better`
+      : title();
+    legend.replaceChildren(
+      logColorBar(`${legendTitle} (logarithmic)`, state.view.ratio ? blueOrange : viridis, scale, format()),
+      ...(holes ? [element('p', { class: 'holes' }, element('span', { class: 'hole' }), ' no value')] : []),
+    );
+    side.replaceChildren(
+      scrolling(worstTable(table, state.view, state.view.ratio ? 'ratio' : title()), 'Highest values'),
+    );
     redraw();
   };
   const showQuantity = (key) => {
@@ -180,7 +256,12 @@ function addNodeMap(parent, table, { id, what, quantities }) {
     showView();
   };
 
-  addSelect(controls, what, quantities.map(({ key, name }) => [key, name]), showQuantity);
+  addSelect(
+    controls,
+    what,
+    quantities.map(({ key, name }) => [key, name]),
+    showQuantity,
+  );
   const viewSelect = addSelect(controls, 'Show', [['', '']], (key) => {
     state.view = viewsOfNow.find((view) => view.key === key);
     showView();
@@ -198,17 +279,23 @@ function addSlices(controls, axes, state, redraw) {
     // the axis that the other side already shows: swap them
     if (state.shown[1 - side] === chosen) state.shown[1 - side] = state.shown[side];
     state.shown[side] = chosen;
-    selects.forEach((select, i) => { select.select.value = String(state.shown[i]); });
+    selects.forEach((select, i) => {
+      select.select.value = String(state.shown[i]);
+    });
     setSliders();
     redraw();
   };
-  const selects = ['Across', 'Up'].map((label, side) => addSelect(controls, label, names, choose(side), String(state.shown[side])));
+  const selects = ['Across', 'Up'].map((label, side) =>
+    addSelect(controls, label, names, choose(side), String(state.shown[side])),
+  );
   const group = element('div', { class: 'controls sliders' });
   controls.after(group);
-  const sliders = free().map((_, i) => addSlider(group, '', (index) => {
-    state.fixed[free()[i]] = index;
-    redraw();
-  }));
+  const sliders = free().map((_, i) =>
+    addSlider(group, '', (index) => {
+      state.fixed[free()[i]] = index;
+      redraw();
+    }),
+  );
   const setSliders = () => free().forEach((a, i) => sliders[i].set(axes[a], state.fixed[a]));
   setSliders();
 }

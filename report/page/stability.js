@@ -2,24 +2,37 @@
 
 const pageSize = 50;
 
-const outcomeText = (outcomes) => Object.entries(outcomes ?? {}).filter(([, count]) => count > 0)
-  .map(([name, count]) => `${name} ${countText(count)}`).join(', ');
+const outcomeText = (outcomes) =>
+  Object.entries(outcomes ?? {})
+    .filter(([, count]) => count > 0)
+    .map(([name, count]) => `${name} ${countText(count)}`)
+    .join(', ');
 
 // title, key and the unit or meaning of each column of the rows
 const stabilityColumns = [
-  ['fitter', 'fitter', 'which fitter; * is the default of the command line'], ['alpha_x', 'alpha_x', 'GGX alpha along x'],
-  ['alpha_y', 'alpha_y', 'GGX alpha along y'], ['theta (\u00b0)', 'theta_degrees', 'elevation of the view from the normal'],
-  ['phi (\u00b0)', 'phi_degrees', 'azimuth of the view'], ['verdict', 'pass', 'within all limits'],
-  ['limits broken', 'broken', 'names of the limits'], ['SW1', 'sw1', 'of the median run'],
-  ['SW1 / best', 'sw1_over_best', 'over the best of any run'], ['TV', 'tv', 'total variation'],
+  ['fitter', 'fitter', 'which fitter; * is the default of the command line'],
+  ['alpha_x', 'alpha_x', 'GGX alpha along x'],
+  ['alpha_y', 'alpha_y', 'GGX alpha along y'],
+  ['theta (\u00b0)', 'theta_degrees', 'elevation of the view from the normal'],
+  ['phi (\u00b0)', 'phi_degrees', 'azimuth of the view'],
+  ['verdict', 'pass', 'within all limits'],
+  ['limits broken', 'broken', 'names of the limits'],
+  ['SW1', 'sw1', 'of the median run'],
+  ['SW1 / best', 'sw1_over_best', 'over the best of any run'],
+  ['TV', 'tv', 'total variation'],
   ['spread of starts', 'spread_starts', 'how far results differ between starts'],
   ['spread of seeds', 'spread_seeds', 'how far results differ between seeds'],
-  ['cond M', 'condition_m', 'condition number of M'], ['cond raw', 'condition_raw', 'of the problem as posed'],
+  ['cond M', 'condition_m', 'condition number of M'],
+  ['cond raw', 'condition_raw', 'of the problem as posed'],
   ['cond scaled', 'condition_scaled', 'of the problem as solved'],
   ['gradient error', 'gradient_error', 'relative, against differences'],
-  ['float32 shift', 'float32_shift', 'what rounding to float32 does'], ['half shift', 'half_shift', 'what rounding to half does'],
-  ['interpolation', 'interpolation', 'between this entry and the next'], ['runs', 'runs', 'starts times seeds'],
-  ['not finite', 'non_finite', 'runs'], ['det < 0', 'det_negative', 'runs'], ['outcomes', 'outcomes', 'how the runs ended'],
+  ['float32 shift', 'float32_shift', 'what rounding to float32 does'],
+  ['half shift', 'half_shift', 'what rounding to half does'],
+  ['interpolation', 'interpolation', 'between this entry and the next'],
+  ['runs', 'runs', 'starts times seeds'],
+  ['not finite', 'non_finite', 'runs'],
+  ['det < 0', 'det_negative', 'runs'],
+  ['outcomes', 'outcomes', 'how the runs ended'],
 ];
 const textKeys = new Set(['fitter', 'pass', 'broken', 'outcomes']);
 
@@ -51,26 +64,46 @@ function rowCells(row) {
   });
 }
 
-const plainColumns = () => stabilityColumns.map(([title, key, meaning], i) =>
-  ({ title, note: meaning, number: !textKeys.has(key), head: i === 0, class: key === 'outcomes' || key === 'broken' ? 'name' : null }));
+const plainColumns = () =>
+  stabilityColumns.map(([title, key, meaning], i) => ({
+    title,
+    note: meaning,
+    number: !textKeys.has(key),
+    head: i === 0,
+    class: key === 'outcomes' || key === 'broken' ? 'name' : null,
+  }));
 
 // The row's greatest figure in units of its limit, for limits that are named like a figure.
 function nearness(row, limits) {
-  return Math.max(0, ...limits.filter(({ id, limit }) => isNumber(row[id]) && limit > 0).map(({ id, limit }) => row[id] / limit));
+  return Math.max(
+    0,
+    ...limits.filter(({ id, limit }) => isNumber(row[id]) && limit > 0).map(({ id, limit }) => row[id] / limit),
+  );
 }
 
 // For paper: what failed, and what came nearest to failing.
 function printedRows(stability) {
   const failed = stability.rows.filter((row) => !row.pass);
-  const worst = stability.rows.filter((row) => row.pass)
-    .sort((a, b) => nearness(b, stability.limits) - nearness(a, stability.limits)).slice(0, 30);
+  const worst = stability.rows
+    .filter((row) => row.pass)
+    .sort((a, b) => nearness(b, stability.limits) - nearness(a, stability.limits))
+    .slice(0, 30);
   const columns = plainColumns();
   // as many columns as fit on paper
-  const kept = columns.map((_, i) => i).filter((i) => !['outcomes', 'condition_raw', 'condition_scaled', 'runs', 'non_finite',
-    'det_negative'].includes(stabilityColumns[i][1]));
+  const kept = columns
+    .map((_, i) => i)
+    .filter(
+      (i) =>
+        !['outcomes', 'condition_raw', 'condition_scaled', 'runs', 'non_finite', 'det_negative'].includes(
+          stabilityColumns[i][1],
+        ),
+    );
   const pick = (list) => kept.map((i) => list[i]);
-  return tableOf(`The ${countText(failed.length)} rows that fail, and of the others the ${worst.length} nearest to a limit`,
-    pick(columns), [...failed, ...worst].map((row) => pick(rowCells(row))));
+  return tableOf(
+    `The ${countText(failed.length)} rows that fail, and of the others the ${worst.length} nearest to a limit`,
+    pick(columns),
+    [...failed, ...worst].map((row) => pick(rowCells(row))),
+  );
 }
 
 function addRowBrowser(parent, stability) {
@@ -83,18 +116,25 @@ function addRowBrowser(parent, stability) {
   const headings = [...made.tHead.rows[0].cells];
 
   const show = () => {
-    const matching = stability.rows.filter((row) => (state.fitter === '' || row.fitter === state.fitter) &&
-      (state.verdict === '' || row.pass === (state.verdict === 'pass')));
+    const matching = stability.rows.filter(
+      (row) =>
+        (state.fitter === '' || row.fitter === state.fitter) &&
+        (state.verdict === '' || row.pass === (state.verdict === 'pass')),
+    );
     const ordered = state.key === null ? matching : sorted(matching, state.key, state.descending);
     const pages = Math.max(1, Math.ceil(ordered.length / pageSize));
     state.page = Math.min(state.page, pages - 1);
     const first = state.page * pageSize;
     const rows = ordered.slice(first, first + pageSize);
     const body = tableOf('', plainColumns(), rows.map(rowCells)).tBodies[0];
-    rows.forEach((row, i) => { if (!row.pass) body.rows[i].classList.add('failed'); });
+    rows.forEach((row, i) => {
+      if (!row.pass) body.rows[i].classList.add('failed');
+    });
     made.tBodies[0].replaceWith(body);
-    position.textContent = ordered.length === 0 ? 'no such row'
-      : `rows ${first + 1} to ${first + rows.length} of ${countText(ordered.length)}`;
+    position.textContent =
+      ordered.length === 0
+        ? 'no such row'
+        : `rows ${first + 1} to ${first + rows.length} of ${countText(ordered.length)}`;
     previous.disabled = state.page === 0;
     next.disabled = state.page === pages - 1;
     headings.forEach((heading, i) => {
@@ -111,15 +151,27 @@ function addRowBrowser(parent, stability) {
     const [title, key] = stabilityColumns[i];
     const button = element('button', { type: 'button', class: 'sort' }, title);
     // the first press puts the worst on top
-    button.addEventListener('click', () => change({ key, descending: state.key === key ? !state.descending : key !== 'pass' &&
-      key !== 'fitter' }));
+    button.addEventListener('click', () =>
+      change({ key, descending: state.key === key ? !state.descending : key !== 'pass' && key !== 'fitter' }),
+    );
     heading.replaceChildren(button);
   });
   previous.addEventListener('click', () => change({ page: state.page - 1 }));
   next.addEventListener('click', () => change({ page: state.page + 1 }));
   const fitters = [...new Set(stability.rows.map((row) => row.fitter))];
-  addSelect(controls, 'Fitter', [['', 'all'], ...fitters.map((fitter) => [fitter, fitter])], (fitter) => change({ fitter }));
-  addSelect(controls, 'Verdict', [['', 'all'], ['fail', 'fail'], ['pass', 'pass']], (verdict) => change({ verdict }));
+  addSelect(controls, 'Fitter', [['', 'all'], ...fitters.map((fitter) => [fitter, fitter])], (fitter) =>
+    change({ fitter }),
+  );
+  addSelect(
+    controls,
+    'Verdict',
+    [
+      ['', 'all'],
+      ['fail', 'fail'],
+      ['pass', 'pass'],
+    ],
+    (verdict) => change({ verdict }),
+  );
   const box = scrolling(made, 'All rows of the stability runs');
   box.classList.add('high');
   parent.append(controls, element('div', { class: 'pager' }, previous, next, position), box);
@@ -133,24 +185,67 @@ function stabilitySection(stability) {
     return made;
   }
   const names = [...new Set(stability.summary.flatMap((entry) => Object.keys(entry.outcomes ?? {})))];
-  const columns = [{ title: 'Fitter', head: true }, { title: 'Rows', number: true }, { title: 'Failed', number: true },
-    { title: 'Verdict' }, { title: 'Runs', number: true }, { title: 'Not finite', number: true },
-    ...names.map((title) => ({ title, number: true }))];
-  made.append(note(`${stability.set}. Starts: ${stability.starts.join(', ')}. Seeds: ${stability.seeds.join(', ')}.`),
-    scrolling(tableOf('Fitters; * is the default', columns, stability.summary.map((entry) =>
-      [entry.fitter + (entry.default ? ' *' : ''), countText(entry.rows), countText(entry.failed), verdictMark(entry.failed === 0),
-        countText(entry.runs), countText(entry.non_finite), ...names.map((name) => countText(entry.outcomes[name] ?? 0))])),
-    'Stability of each fitter'));
+  const columns = [
+    { title: 'Fitter', head: true },
+    { title: 'Rows', number: true },
+    { title: 'Failed', number: true },
+    { title: 'Verdict' },
+    { title: 'Runs', number: true },
+    { title: 'Not finite', number: true },
+    ...names.map((title) => ({ title, number: true })),
+  ];
+  made.append(
+    note(`${stability.set}. Starts: ${stability.starts.join(', ')}. Seeds: ${stability.seeds.join(', ')}.`),
+    scrolling(
+      tableOf(
+        'Fitters; * is the default',
+        columns,
+        stability.summary.map((entry) => [
+          entry.fitter + (entry.default ? ' *' : ''),
+          countText(entry.rows),
+          countText(entry.failed),
+          verdictMark(entry.failed === 0),
+          countText(entry.runs),
+          countText(entry.non_finite),
+          ...names.map((name) => countText(entry.outcomes[name] ?? 0)),
+        ]),
+      ),
+      'Stability of each fitter',
+    ),
+  );
   if (stability.limits.length > 0) {
-    made.append(scrolling(tableOf('Limits', [{ title: 'Name', head: true }, { title: 'Limit', number: true },
-      { title: 'What must hold', class: 'wide' }],
-    stability.limits.map(({ id, limit, text }) => [id, numberText(limit), text])), 'Limits'));
+    made.append(
+      scrolling(
+        tableOf(
+          'Limits',
+          [
+            { title: 'Name', head: true },
+            { title: 'Limit', number: true },
+            { title: 'What must hold', class: 'wide' },
+          ],
+          stability.limits.map(({ id, limit, text }) => [id, numberText(limit), text]),
+        ),
+        'Limits',
+      ),
+    );
   }
   if (stability.findings.length > 0) {
-    made.append(element('h3', {}, 'Known weaknesses, looked for again'), element('ul', { class: 'findings' },
-      stability.findings.map((finding) => element('li', {},
-        element('strong', {}, finding.title), `: ${finding.seen ? 'seen' : 'not seen'}, ${countText(finding.rows)} of `,
-        `${countText(finding.of)} rows. ${finding.text}`))));
+    made.append(
+      element('h3', {}, 'Known weaknesses, looked for again'),
+      element(
+        'ul',
+        { class: 'findings' },
+        stability.findings.map((finding) =>
+          element(
+            'li',
+            {},
+            element('strong', {}, finding.title),
+            `: ${finding.seen ? 'seen' : 'not seen'}, ${countText(finding.rows)} of `,
+            `${countText(finding.of)} rows. ${finding.text}`,
+          ),
+        ),
+      ),
+    );
   }
   made.append(element('h3', {}, 'Rows'));
   if (stability.rows.length === 0) {
@@ -160,7 +255,9 @@ function stabilitySection(stability) {
   const browser = element('div', { class: 'screen-only' });
   addRowBrowser(browser, stability);
   const printed = element('div', { class: 'print-only' });
-  const fill = () => { if (printed.childElementCount === 0) printed.append(printedRows(stability)); };
+  const fill = () => {
+    if (printed.childElementCount === 0) printed.append(printedRows(stability));
+  };
   paper.addEventListener('change', fill);
   addEventListener('beforeprint', fill);
   made.append(browser, printed);

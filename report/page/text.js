@@ -30,7 +30,10 @@ function numberText(value, digits = 3) {
     const text = value.toPrecision(digits);
     return String(text.includes('e') ? Math.round(value) : Number(text));
   }
-  return value.toExponential(Math.max(0, digits - 1)).replace(/\.?0+e/, 'e').replace('e+', 'e');
+  return value
+    .toExponential(Math.max(0, digits - 1))
+    .replace(/\.?0+e/, 'e')
+    .replace('e+', 'e');
 }
 
 const countText = (value) => (isNumber(value) ? value.toLocaleString('en-US') : missing);
@@ -59,19 +62,52 @@ function nodeAt(axes, indices) {
   return indices.reduce((node, index, a) => node * axes[a].values.length + index, 0);
 }
 
-const nodeText = (axes, node) => nodeIndices(axes, node).map((index, a) => axisValueText(axes[a], index)).join(', ');
+const nodeText = (axes, node) =>
+  nodeIndices(axes, node)
+    .map((index, a) => axisValueText(axes[a], index))
+    .join(', ');
 
 const idOf = (...parts) => parts.join('-').replace(/[^A-Za-z0-9]+/g, '-');
 
 // rows: arrays of texts or elements. columns: { title, number, head, class, note }; `head` cells are row headings.
 function tableOf(caption, columns, rows) {
-  const cell = (content, column) => element(column.head ? 'th' : 'td',
-    { scope: column.head ? 'row' : null, class: column.number ? 'number' : column.class }, content);
-  return element('table', {},
+  const cell = (content, column) =>
+    element(
+      column.head ? 'th' : 'td',
+      { scope: column.head ? 'row' : null, class: column.number ? 'number' : column.class },
+      content,
+    );
+  return element(
+    'table',
+    {},
     element('caption', {}, caption),
-    element('thead', {}, element('tr', {}, columns.map((column) =>
-      element('th', { scope: 'col', class: column.number ? 'number' : column.class, title: column.note }, column.title)))),
-    element('tbody', {}, rows.map((row) => element('tr', {}, row.map((content, i) => cell(content, columns[i]))))));
+    element(
+      'thead',
+      {},
+      element(
+        'tr',
+        {},
+        columns.map((column) =>
+          element(
+            'th',
+            { scope: 'col', class: column.number ? 'number' : column.class, title: column.note },
+            column.title,
+          ),
+        ),
+      ),
+    ),
+    element(
+      'tbody',
+      {},
+      rows.map((row) =>
+        element(
+          'tr',
+          {},
+          row.map((content, i) => cell(content, columns[i])),
+        ),
+      ),
+    ),
+  );
 }
 
 // A table that is wider than the page scrolls in a box of its own, which the keyboard reaches.
@@ -80,12 +116,23 @@ function scrolling(table, label) {
 }
 
 function section(id, level, title, ...children) {
-  return element('section', { id, 'aria-labelledby': `${id}-title` },
-    element(`h${level}`, { id: `${id}-title` }, title), ...children);
+  return element(
+    'section',
+    { id, 'aria-labelledby': `${id}-title` },
+    element(`h${level}`, { id: `${id}-title` }, title),
+    ...children,
+  );
 }
 
 const note = (...children) => element('p', { class: 'note' }, ...children);
 // One line in place of a section without data.
 const absent = (what, option) =>
-  element('p', { class: 'absent' }, `${what}: not in this report; `, element('code', {}, option),
-    ' of ', element('code', {}, 'ltcfit report'), ' brings it in.');
+  element(
+    'p',
+    { class: 'absent' },
+    `${what}: not in this report; `,
+    element('code', {}, option),
+    ' of ',
+    element('code', {}, 'ltcfit report'),
+    ' brings it in.',
+  );

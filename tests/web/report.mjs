@@ -6,7 +6,18 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from './packages.mjs';
-import { keyboard, layout, print, rows, schemes, selectors, settled, sliders, standing } from './report_checks.mjs';
+import {
+  keyboard,
+  layout,
+  print,
+  rows,
+  schemes,
+  selectors,
+  settled,
+  sliders,
+  standing,
+  tooltips,
+} from './report_checks.mjs';
 import { fillPage } from './report_fill.mjs';
 import { samples } from './report_sample.mjs';
 
@@ -32,7 +43,8 @@ async function open(browser, path, width) {
     if (request.url() !== url && !request.url().startsWith('data:')) noises.push(`a request to ${request.url()}`);
   });
   await page.goto(url);
-  await page.waitForFunction(() => document.documentElement.dataset.ready === 'yes', null, { timeout: 20000 })
+  await page
+    .waitForFunction(() => document.documentElement.dataset.ready === 'yes', null, { timeout: 20000 })
     .catch(() => noises.push('the page does not get ready'));
   return { page, noises };
 }
@@ -42,7 +54,7 @@ async function inspect(browser, path, width, checks) {
   const { page, noises } = await open(browser, path, width);
   const found = [];
   if (!noises.includes('the page does not get ready')) {
-    for (const check of checks) found.push(...await check(page));
+    for (const check of checks) found.push(...(await check(page)));
   }
   await page.context().close();
   return [...noises, ...found].map((text) => `${width} px: ${text}`);
@@ -65,26 +77,40 @@ async function photograph(browser, path, name) {
 
 // What is broken, the text that is replaced in a good page (its first occurrence), and the check that must notice.
 const damages = [
-  ['a figure that is not a number', 'return value.toExponential(', "return 'NaN' + value.toExponential(", standing],
-  ['a section left out', 'stabilitySection(report.stability), ', '', standing],
+  ['a figure that is not a number', "if (value === 0) return '0';", "if (value > 0.5) return 'NaN';", standing],
+  ['a section left out', 'stabilitySection(report.stability),', '', standing],
   ['an empty map', 'if (!isNumber(value)) return null;', 'return null;', standing],
   ['a chart that is not drawn', 'instance.setOption(', 'void (', standing],
   ['pictures left out', "const images = readJson('images')", 'const images = {}', standing],
   ['a failed check that looks passed', 'if (!verdict.pass) made', 'if (false) made', standing],
-  ['labels over one another', 'axisLabel: { ...style.axisLabel, interval }',
-    'axisLabel: { ...style.axisLabel, hideOverlap: false, interval: () => true }', standing],
+  [
+    'labels over one another',
+    'axisLabel: { ...style.axisLabel, interval }',
+    'axisLabel: { ...style.axisLabel, hideOverlap: false, interval: () => true }',
+    standing,
+  ],
   ['a wide element', '<footer', '<div style="width: 2000px">wide</div><footer', layout],
   ['a table that does not scroll', '.scroll { overflow: auto;', '.scroll {', layout],
   ['a picture from elsewhere', '<footer', '<img alt="" src="https://example.org/picture.png"><footer', () => []],
-  ['a picture from elsewhere, policy removed', /<meta http-equiv="Content-Security-Policy"[^>]*>([^]*)<footer/,
-    '$1<img alt="" src="https://example.org/picture.png"><footer', () => []],
+  [
+    'a picture from elsewhere, policy removed',
+    /<meta http-equiv="Content-Security-Policy"[^>]*>([^]*)<footer/,
+    '$1<img alt="" src="https://example.org/picture.png"><footer',
+    () => [],
+  ],
   ['an error', '\nbuild();', "\nbuild();\nthrow new Error('late');", () => []],
   ['a warning', '\nbuild();', "\nbuild();\nconsole.warn('late');", () => []],
+  ['no tooltips', 'tooltipOf(...describe(cells[item.dataIndex]))', "''", tooltips],
   ['a slider without effect', 'changed(Number(input.value));', '', sliders],
   ['a slider without text', 'show();\n    changed(Number', 'changed(Number', sliders],
-  ['a selector without effect', "addEventListener('change', () => changed(select.value))", "addEventListener('change', () => 0)", selectors],
+  [
+    'a selector without effect',
+    "addEventListener('change', () => changed(select.value))",
+    "addEventListener('change', () => 0)",
+    selectors,
+  ],
   ['columns that do not sort', 'const sign = descending ? -1 : 1;', 'const sign = 0;', rows],
-  ['a filter without effect', "row.fitter === state.fitter)", 'true)', rows],
+  ['a filter without effect', 'row.fitter === state.fitter)', 'true)', rows],
   ['arrow keys without effect', 'readout.textContent = describe', 'void describe', keyboard],
   ['no dark colours', '@media screen and (prefers-color-scheme: dark) {', '@media (width: 1px) {', schemes],
   ['charts that keep their colours', "darkness.addEventListener('change', redrawSoon);", '', schemes],
@@ -96,8 +122,13 @@ const work = await mkdtemp(join(tmpdir(), 'ltcfit-report-'));
 const { chromium } = (await load(buildWeb, 'playwright-core')).default;
 const browser = await chromium.launch({
   executablePath: chromiumPath,
-  args: ['--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-    '--host-resolver-rules=MAP * ~NOTFOUND'],
+  args: [
+    '--no-first-run',
+    '--disable-background-networking',
+    '--disable-component-update',
+    '--disable-sync',
+    '--host-resolver-rules=MAP * ~NOTFOUND',
+  ],
 });
 try {
   const pages = reportPath ? { report: reportPath } : {};
@@ -105,10 +136,12 @@ try {
     pages[name] = join(work, `${name}.html`);
     await writeFile(pages[name], await fillPage(sourceDir, buildWeb, make()));
   }
-  const all = [standing, layout, keyboard, selectors, sliders, rows, schemes, print, standing, layout];
+  const all = [standing, layout, keyboard, tooltips, selectors, sliders, rows, schemes, print, standing, layout];
   for (const [name, path] of Object.entries(pages)) {
-    const found = [...await inspect(browser, path, 1280, all),
-      ...await inspect(browser, path, 390, [standing, layout, sliders, layout])];
+    const found = [
+      ...(await inspect(browser, path, 1280, all)),
+      ...(await inspect(browser, path, 390, [standing, layout, tooltips, sliders, layout])),
+    ];
     for (const text of found) fail(`${name}: ${text}`);
     console.log(`${name}: ${found.length === 0 ? 'good' : `${found.length} problems`}`);
     if (name !== 'bare') await photograph(browser, path, `report-${name}`);

@@ -5,9 +5,10 @@
 const leastColored = { map: 0.3, other: 0.001 };
 
 // Charts follow a change of the window or of the medium one frame after the page hears of it.
-export const settled = (page) => page.evaluate(async () => {
-  for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
-});
+export const settled = (page) =>
+  page.evaluate(async () => {
+    for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+  });
 
 // Sections, text, pictures and charts as they stand.
 export async function standing(page) {
@@ -25,17 +26,26 @@ export async function standing(page) {
     }
     for (const table of report.tables) expectHeading('h1', table.name, 1);
     const absent = [...document.querySelectorAll('.absent')].map((line) => line.textContent).join(' ');
-    const missing = { '--pareto': report.pareto.length === 0, '--stability': report.stability === null,
-      '--against': report.tables.some((table) => table.against.length === 0) };
+    const missing = {
+      '--pareto': report.pareto.length === 0,
+      '--stability': report.stability === null,
+      '--against': report.tables.some((table) => table.against.length === 0),
+    };
     for (const [option, expected] of Object.entries(missing)) {
-      if (absent.includes(option) !== expected) found.push(`${option} ${expected ? 'is not' : 'is'} named as what is missing`);
+      if (absent.includes(option) !== expected)
+        found.push(`${option} ${expected ? 'is not' : 'is'} named as what is missing`);
     }
     const failed = report.tables.flatMap((table) => table.verdicts).filter((verdict) => !verdict.pass).length;
     const shownFailed = document.querySelectorAll('#verdicts tr.failed').length;
     if (shownFailed !== failed) found.push(`${shownFailed} failed checks shown, not ${failed}`);
 
-    const texts = [['the page', document.body.innerText],
-      ...[...document.querySelectorAll('[aria-label]')].map((e) => [`the label of ${e.id || e.className}`, e.getAttribute('aria-label')])];
+    const texts = [
+      ['the page', document.body.innerText],
+      ...[...document.querySelectorAll('[aria-label]')].map((e) => [
+        `the label of ${e.id || e.className}`,
+        e.getAttribute('aria-label'),
+      ]),
+    ];
     for (const box of document.querySelectorAll('.chart')) {
       const instance = echarts.getInstanceByDom(box);
       if (!instance) {
@@ -44,7 +54,10 @@ export async function standing(page) {
       }
       instance.getZr().flush();
       const { width, height } = box.getBoundingClientRect();
-      const leaves = instance.getZr().storage.getDisplayList(true).filter((e) => e.type === 'tspan' && e.style.text && !e.invisible);
+      const leaves = instance
+        .getZr()
+        .storage.getDisplayList(true)
+        .filter((e) => e.type === 'tspan' && e.style.text && !e.invisible);
       const rects = leaves.map((leaf) => {
         const rect = leaf.getBoundingRect().clone();
         if (leaf.transform) rect.applyTransform(leaf.transform);
@@ -76,7 +89,8 @@ export async function standing(page) {
         if (Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60) colored++;
       }
       const part = colored / (canvas.width * canvas.height);
-      if (part < (box.classList.contains('square') ? least.map : least.other)) found.push(`${box.id}: blank, ${part} of it coloured`);
+      if (part < (box.classList.contains('square') ? least.map : least.other))
+        found.push(`${box.id}: blank, ${part} of it coloured`);
       const drawn = instance.getOption().series.some((series) => series.data.length > 0);
       if (!drawn) found.push(`${box.id}: no data in it`);
       if (!box.getAttribute('aria-label')) found.push(`${box.id}: no text stands for it`);
@@ -106,18 +120,33 @@ export async function standing(page) {
 export async function layout(page) {
   return page.evaluate(() => {
     const found = [];
-    const name = (e) => `${e.tagName.toLowerCase()}${e.id ? `#${e.id}` : ''}${e.className ? `.${e.className}` : ''} "${e.textContent.slice(0, 30)}"`;
-    if (document.documentElement.scrollWidth > innerWidth) found.push(`the page is ${document.documentElement.scrollWidth} wide`);
+    const name = (e) =>
+      `${e.tagName.toLowerCase()}${e.id ? `#${e.id}` : ''}${e.className ? `.${e.className}` : ''} "${e.textContent.slice(0, 30)}"`;
+    if (document.documentElement.scrollWidth > innerWidth)
+      found.push(`the page is ${document.documentElement.scrollWidth} wide`);
     for (const e of document.body.querySelectorAll('*')) {
-      if (e.closest('.skip') || e.closest('script') || (e.parentElement.closest('.scroll') && !matchMedia('print').matches)) continue;
+      if (
+        e.closest('.skip') ||
+        e.closest('script') ||
+        (e.parentElement.closest('.scroll') && !matchMedia('print').matches)
+      )
+        continue;
       const rect = e.getBoundingClientRect();
-      if (rect.width > 0 && (rect.right > innerWidth + 1 || rect.left < -1)) found.push(`${name(e)} ends at ${Math.round(rect.right)}`);
+      if (rect.width > 0 && (rect.right > innerWidth + 1 || rect.left < -1))
+        found.push(`${name(e)} ends at ${Math.round(rect.right)}`);
     }
-    const apart = (elements) => elements.forEach((e, i) => elements.slice(0, i).forEach((other) => {
-      const [a, b] = [e.getBoundingClientRect(), other.getBoundingClientRect()];
-      if (a.width > 0 && Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 &&
-          Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.5) found.push(`${name(e)} over ${name(other)}`);
-    }));
+    const apart = (elements) =>
+      elements.forEach((e, i) =>
+        elements.slice(0, i).forEach((other) => {
+          const [a, b] = [e.getBoundingClientRect(), other.getBoundingClientRect()];
+          if (
+            a.width > 0 &&
+            Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 &&
+            Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.5
+          )
+            found.push(`${name(e)} over ${name(other)}`);
+        }),
+      );
     document.querySelectorAll('.ticks').forEach((ticks) => apart([...ticks.children]));
     document.querySelectorAll('.legend').forEach((legend) => apart([...legend.children]));
     apart([...document.querySelectorAll('.control, .chart, .legend, .colorbar, .pager, h2, h3, h4')]);
@@ -125,17 +154,58 @@ export async function layout(page) {
   });
 }
 
+// Tooltips show where the mouse is on a chart, and stay within the window.
+export async function tooltips(page) {
+  const found = [];
+  for (const box of await page.$$('.chart')) {
+    const id = await box.getAttribute('id');
+    await box.scrollIntoViewIfNeeded();
+    const rect = await box.boundingBox();
+    // the symbol of a setting, or the middle of the other charts
+    const [x, y] = await box.evaluate((e) => {
+      const instance = echarts.getInstanceByDom(e);
+      const scatter = instance.getOption().series.find((series) => series.type === 'scatter');
+      if (!scatter) return [0.6 * e.clientWidth, 0.4 * e.clientHeight];
+      return instance.convertToPixel({ xAxisIndex: 0, yAxisIndex: 0 }, scatter.data[0]);
+    });
+    await page.mouse.move(rect.x + x, rect.y + y);
+    const shown = await page
+      .waitForFunction(
+        (e) => [...e.children].find((child) => child.innerText && getComputedStyle(child).opacity > 0.9),
+        box,
+        { timeout: 3000 },
+      )
+      .catch(() => null);
+    if (!shown) {
+      found.push(`${id}: no tooltip`);
+      continue;
+    }
+    const text = await shown.evaluate((e) => e.innerText);
+    if (/NaN|undefined|\[object/.test(text)) found.push(`${id}: tooltip "${text}"`);
+    const wide = await shown.evaluate((e) => {
+      const { left, right } = e.getBoundingClientRect();
+      return left < -1 || right > innerWidth + 1 || document.documentElement.scrollWidth > innerWidth;
+    });
+    if (wide) found.push(`${id}: the tooltip leaves the window`);
+    await page.mouse.move(1, 1);
+  }
+  return found;
+}
+
 // What a section shows: its charts' pixels, or its text where it has none.
-const signature = (handle) => handle.evaluate((e) => {
-  const boxes = [...e.closest('section').querySelectorAll('.chart')];
-  if (boxes.length === 0) return e.closest('section').innerText;
-  return boxes.map((box) => {
-    echarts.getInstanceByDom(box).getZr().flush();
-    const copy = new OffscreenCanvas(300, 200).getContext('2d', { willReadFrequently: true });
-    copy.drawImage(box.querySelector('canvas'), 0, 0, 300, 200);
-    return copy.getImageData(0, 0, 300, 200).data.reduce((hash, byte) => (Math.imul(hash, 31) + byte) | 0, 7);
-  }).join(' ');
-});
+const signature = (handle) =>
+  handle.evaluate((e) => {
+    const boxes = [...e.closest('section').querySelectorAll('.chart')];
+    if (boxes.length === 0) return e.closest('section').innerText;
+    return boxes
+      .map((box) => {
+        echarts.getInstanceByDom(box).getZr().flush();
+        const copy = new OffscreenCanvas(300, 200).getContext('2d', { willReadFrequently: true });
+        copy.drawImage(box.querySelector('canvas'), 0, 0, 300, 200);
+        return copy.getImageData(0, 0, 300, 200).data.reduce((hash, byte) => (Math.imul(hash, 31) + byte) | 0, 7);
+      })
+      .join(' ');
+  });
 
 export async function selectors(page) {
   const found = [];
@@ -144,7 +214,10 @@ export async function selectors(page) {
     const start = await select.inputValue();
     const values = await select.evaluate((e) => [...e.options].map((option) => option.value));
     let last = await signature(select);
-    for (const value of [...values.filter((other) => other !== start).slice(-3), ...(values.length > 1 ? [start] : [])]) {
+    for (const value of [
+      ...values.filter((other) => other !== start).slice(-3),
+      ...(values.length > 1 ? [start] : []),
+    ]) {
       await select.selectOption(value);
       const now = await signature(select);
       if (now === last) found.push(`${what}: nothing changes with "${value}"`);
@@ -158,9 +231,11 @@ export async function sliders(page) {
   const found = [];
   for (const slider of await page.$$('input[type=range]')) {
     const what = await slider.evaluate((e) => `${e.closest('section').id}, ${e.labels[0].textContent}`);
-    const state = async () => [await signature(slider),
+    const state = async () => [
+      await signature(slider),
       await slider.evaluate((e) => e.closest('.control').querySelector('output').textContent),
-      await slider.getAttribute('aria-valuetext')];
+      await slider.getAttribute('aria-valuetext'),
+    ];
     const moved = async (how, move) => {
       const before = await state();
       await move();
@@ -214,31 +289,44 @@ export async function rows(page) {
   const all = report.stability.rows;
   const browser = '#stability .screen-only';
   const [fitter, verdict] = await page.$$(`${browser} select`);
-  const column = async (title) => page.$$eval(`${browser} table`, ([table], wanted) => {
-    const i = [...table.tHead.rows[0].cells].findIndex((cell) => cell.textContent === wanted);
-    return [...table.tBodies[0].rows].map((row) => row.cells[i].textContent);
-  }, title);
+  const column = async (title) =>
+    page.$$eval(
+      `${browser} table`,
+      ([table], wanted) => {
+        const i = [...table.tHead.rows[0].cells].findIndex((cell) => cell.textContent === wanted);
+        return [...table.tBodies[0].rows].map((row) => row.cells[i].textContent);
+      },
+      title,
+    );
   const expect = async (count, what) => {
     const position = await page.$eval(`${browser} .position`, (e) => e.textContent);
-    const shown = count === 0 ? 'no such row' : `rows 1 to ${Math.min(50, count)} of ${count.toLocaleString('en-US')}`;
+    const shown =
+      count === 0 ? 'no such row' : `rows 1 to ${Math.min(50, count)} of ${count.toLocaleString('en-US')}`;
     if (position !== shown) found.push(`${what}: "${position}", not "${shown}"`);
   };
   await expect(all.length, 'all rows');
-  for (const [name, wanted] of [['fail', false], ['pass', true]]) {
+  for (const [name, wanted] of [
+    ['fail', false],
+    ['pass', true],
+  ]) {
     await verdict.selectOption(name);
     await expect(all.filter((row) => row.pass === wanted).length, name);
-    if ((await column('verdict')).some((text) => !text.includes(name))) found.push(`other rows than those that ${name}`);
+    if ((await column('verdict')).some((text) => !text.includes(name)))
+      found.push(`other rows than those that ${name}`);
   }
   await verdict.selectOption('');
   const last = all[all.length - 1].fitter;
   await fitter.selectOption(last);
   await expect(all.filter((row) => row.fitter === last).length, last);
-  if ((await column('fitter')).some((text) => text.replace(' *', '') !== last)) found.push(`other fitters than ${last}`);
+  if ((await column('fitter')).some((text) => text.replace(' *', '') !== last))
+    found.push(`other fitters than ${last}`);
   await fitter.selectOption('');
 
   const titles = await page.$$eval(`${browser} th .sort`, (buttons) => buttons.map((button) => button.textContent));
   for (const title of titles) {
-    const button = page.locator(`${browser} th .sort`, { hasText: new RegExp(`^${title.replace(/[/()\s]/g, '\\$&')}$`) });
+    const button = page.locator(`${browser} th .sort`, {
+      hasText: new RegExp(`^${title.replace(/[/()\s]/g, '\\$&')}$`),
+    });
     const orders = [];
     for (const press of [() => button.click(), () => button.press('Enter')]) {
       await press();
@@ -248,7 +336,8 @@ export async function rows(page) {
       const order = await button.evaluate((e) => e.closest('th').getAttribute('aria-sort'));
       orders.push(order);
       const sign = order === 'descending' ? -1 : 1;
-      if (numbers.some((value, i) => i > 0 && sign * (value - numbers[i - 1]) < 0)) found.push(`${title}: not ${order}`);
+      if (numbers.some((value, i) => i > 0 && sign * (value - numbers[i - 1]) < 0))
+        found.push(`${title}: not ${order}`);
       // rows without a value stand last
       if (numbers.length > 0 && values.slice(0, numbers.length).some((value) => !Number.isFinite(value))) {
         found.push(`${title}: empty rows are not last`);
@@ -265,24 +354,25 @@ export async function rows(page) {
   return found;
 }
 
-const luminances = (page) => page.evaluate(() => {
-  const luminance = (color) => {
-    const [r, g, b] = color.match(/[\d.]+/g).map((c) => Number(c) / 255);
-    return 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2;
-  };
-  const style = getComputedStyle(document.body);
-  const probe = document.createElement('span');
-  document.body.append(probe);
-  const charts = [...document.querySelectorAll('.chart')].map((box) => {
-    const zr = echarts.getInstanceByDom(box).getZr();
-    zr.flush();
-    const label = zr.storage.getDisplayList(true).find((e) => e.type === 'tspan' && e.style.fill);
-    probe.style.color = label.style.fill;
-    return luminance(getComputedStyle(probe).color);
+const luminances = (page) =>
+  page.evaluate(() => {
+    const luminance = (color) => {
+      const [r, g, b] = color.match(/[\d.]+/g).map((c) => Number(c) / 255);
+      return 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2;
+    };
+    const style = getComputedStyle(document.body);
+    const probe = document.createElement('span');
+    document.body.append(probe);
+    const charts = [...document.querySelectorAll('.chart')].map((box) => {
+      const zr = echarts.getInstanceByDom(box).getZr();
+      zr.flush();
+      const label = zr.storage.getDisplayList(true).find((e) => e.type === 'tspan' && e.style.fill);
+      probe.style.color = label.style.fill;
+      return luminance(getComputedStyle(probe).color);
+    });
+    probe.remove();
+    return { text: luminance(style.color), paper: luminance(style.backgroundColor), charts };
   });
-  probe.remove();
-  return { text: luminance(style.color), paper: luminance(style.backgroundColor), charts };
-});
 
 // Colours of page and charts, and that they follow when the reader's choice changes.
 export async function schemes(page) {
@@ -311,22 +401,26 @@ export async function schemes(page) {
 // On A4: light, everything within the paper's width, no controls, the rows that matter.
 export async function print(page) {
   const before = page.viewportSize();
-  await page.setViewportSize({ width: 680, height: 970 });   // A4 less margins of 15 and 14 mm
+  await page.setViewportSize({ width: 680, height: 970 }); // A4 less margins of 15 and 14 mm
   await page.emulateMedia({ media: 'print' });
   await settled(page);
-  const found = [...await standing(page), ...await layout(page), ...await page.evaluate(() => {
-    const wrong = [];
-    const seen = (e) => e.getBoundingClientRect().height > 0;
-    if ([...document.querySelectorAll('input, button, nav')].some(seen)) wrong.push('controls are printed');
-    const { stability } = JSON.parse(document.getElementById('report').textContent);
-    if (stability && stability.rows.length > 0) {
-      const failed = stability.rows.filter((row) => !row.pass).length;
-      const wanted = failed + Math.min(30, stability.rows.length - failed);
-      const there = document.querySelectorAll('#stability .print-only tbody tr').length;
-      if (there !== wanted) wrong.push(`${there} rows are printed, not ${wanted}`);
-    }
-    return wrong;
-  })].map((text) => `print: ${text}`);
+  const found = [
+    ...(await standing(page)),
+    ...(await layout(page)),
+    ...(await page.evaluate(() => {
+      const wrong = [];
+      const seen = (e) => e.getBoundingClientRect().height > 0;
+      if ([...document.querySelectorAll('input, button, nav')].some(seen)) wrong.push('controls are printed');
+      const { stability } = JSON.parse(document.getElementById('report').textContent);
+      if (stability && stability.rows.length > 0) {
+        const failed = stability.rows.filter((row) => !row.pass).length;
+        const wanted = failed + Math.min(30, stability.rows.length - failed);
+        const there = document.querySelectorAll('#stability .print-only tbody tr').length;
+        if (there !== wanted) wrong.push(`${there} rows are printed, not ${wanted}`);
+      }
+      return wrong;
+    })),
+  ].map((text) => `print: ${text}`);
   await page.emulateMedia({ media: null });
   await page.setViewportSize(before);
   await settled(page);

@@ -4,5 +4,9 @@ import { join } from 'node:path';
 import { samplePareto, sampleStability } from './report_sample.mjs';
 
 const [directory] = process.argv.slice(2);
-const files = { 'pareto_iso.json': samplePareto('iso'), 'pareto_aniso.json': samplePareto('aniso'), 'stability.json': sampleStability() };
+const files = {
+  'pareto_iso.json': samplePareto('iso'),
+  'pareto_aniso.json': samplePareto('aniso'),
+  'stability.json': sampleStability(),
+};
 for (const [name, content] of Object.entries(files)) await writeFile(join(directory, name), JSON.stringify(content));

@@ -13,7 +13,10 @@ export async function fillPage(sourceDir, buildWeb, { report, images }) {
   const parts = {
     '<!--LTCFIT-TITLE-->': markupText(report.tables.map((table) => table.name).join(', ')),
     '/*LTCFIT-CSS*/': await text('page.css'),
-    '/*LTCFIT-CHARTS*/': await readFile(join(buildWeb, 'page', 'node_modules', 'echarts', 'dist', 'echarts.min.js'), 'utf8'),
+    '/*LTCFIT-CHARTS*/': await readFile(
+      join(buildWeb, 'page', 'node_modules', 'echarts', 'dist', 'echarts.min.js'),
+      'utf8',
+    ),
     '/*LTCFIT-SCRIPT*/': (await Promise.all(scripts.map(text))).join('\n'),
     '/*LTCFIT-REPORT*/': jsonText(report),
     '/*LTCFIT-IMAGES*/': jsonText(images),
