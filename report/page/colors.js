@@ -51,7 +51,7 @@ function errorScale(sources) {
     .sort((a, b) => a - b);
   if (positive.length === 0) return { low: 1e-3, high: 1 };
   const high = positive[positive.length - 1];
-  const low = Math.max(positive[Math.floor(0.02 * positive.length)], 1e-6 * high);
+  const low = positive[Math.floor(0.02 * positive.length)];
   return low < 0.9 * high ? { low, high } : { low: 0.5 * high, high };
 }
 

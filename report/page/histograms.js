@@ -3,6 +3,16 @@
 const dashes = ['', '6 3', '2 3', '10 3 2 3', '1 4'];
 const dashLists = dashes.map((dash) => (dash ? dash.split(' ').map(Number) : 'solid'));
 
+// How many points are in the bins, and which have no place on the axis.
+function pointsOf(series) {
+  const drawn = series.counts.reduce((sum, count) => sum + (count ?? 0), 0);
+  const others = [
+    series.zero > 0 ? `${countText(series.zero)} exactly 0` : null,
+    series.non_finite > 0 ? `${countText(series.non_finite)} not finite` : null,
+  ].filter(Boolean);
+  return `${countText(drawn)} points${others.length > 0 ? `, without ${others.join(' and ')}` : ''}`;
+}
+
 function histogramLegend(histogram, colors) {
   return legendOf(
     histogram.series.map((series, i) => {
@@ -15,8 +25,7 @@ function histogramLegend(histogram, colors) {
         'stroke-dasharray': dashes[i % dashes.length] || 'none',
       });
       const fill = drawing('path', { d: 'M1 13 V5 H17 V8 H33 V13 Z', fill: color, 'fill-opacity': 0.25 });
-      const total = series.counts.reduce((sum, count) => sum + (count ?? 0), 0);
-      return [sample(...(i === 0 ? [fill, line] : [line])), `${series.table} (${countText(total)} points)`];
+      return [sample(...(i === 0 ? [fill, line] : [line])), `${series.table} (${pointsOf(series)})`];
     }),
   );
 }

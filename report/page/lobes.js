@@ -17,24 +17,22 @@ function lobeFigure(image, images) {
 }
 
 function lobeLegends(lobe) {
-  const signed = (value) => `${value > 0 ? '+' : '\u2212'}${numberText(Math.abs(value))}`;
+  const signed = (value) => `${value > 0 ? '+' : '\u2212'}${numberText(Math.abs(value), 2)}`;
+  const ends = [
+    [0, signed(-lobe.difference)],
+    [0.5, '0'],
+    [1, signed(lobe.difference)],
+  ];
   return element(
     'div',
     { class: 'lobe-legends' },
     isNumber(lobe.peak)
       ? colorBar('density in sr\u207b\u00b9', viridis, [
           [0, '0'],
-          [0.5, numberText(lobe.peak / 2)],
           [1, numberText(lobe.peak)],
         ])
       : null,
-    isNumber(lobe.difference)
-      ? colorBar('LTC \u2212 GGX in sr\u207b\u00b9', blueOrange, [
-          [0, signed(-lobe.difference)],
-          [0.5, '0'],
-          [1, signed(lobe.difference)],
-        ])
-      : null,
+    isNumber(lobe.difference) ? colorBar('LTC \u2212 GGX in sr\u207b\u00b9', blueOrange, ends) : null,
   );
 }
 

@@ -117,6 +117,10 @@ function provenanceSection(report) {
         ['options', optionText(from.options)],
         ['size', `${sizeText(table)} (${table.axes.map((axis) => axis.name).join(', ')})`],
         ['stores', `${table.stores}, ${table.normalization}`],
+        [
+          'interpolated',
+          table.interpolated ? `${table.interpolated.stores}, ${table.interpolated.normalization}` : '',
+        ],
         ['channels', table.channels.join(', ')],
         ['alpha floor', numberText(table.alpha_floor)],
         ['compared with', table.against.join(', ')],

@@ -26,7 +26,7 @@ function numberText(value, digits = 3) {
   if (!isNumber(value)) return missing;
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e-3 && size < 1e5) {
+  if (size >= 1e-3 && size < 1e4) {
     const text = value.toPrecision(digits);
     return String(text.includes('e') ? Math.round(value) : Number(text));
   }

@@ -81,6 +81,8 @@ function histogram(points, metric, tables, random) {
   const edges = Array.from({ length: bins + 1 }, (_, i) => 10 ** (-5 + (4 * i) / bins));
   const series = tables.map((table, t) => ({
     table,
+    zero: 3 * t,
+    non_finite: t,
     counts: Array.from({ length: bins }, (_, i) =>
       Math.round(300 * Math.exp(-(((i - 18 - 7 * t) / (5 + 2 * t)) ** 2)) * (0.8 + 0.4 * random())),
     ),
@@ -106,12 +108,20 @@ function lobe(t, index, tables, images) {
     title: `alpha 0.1, theta ${theta}\u00b0`,
     half_width_degrees: 20,
     peak: 12.3,
-    difference: 1.234,
+    difference: 0.050123,
     parameters: { alpha_x: 0.1, alpha_y: round ? 0.1 : 0.02, theta_degrees: theta, phi_degrees: round ? 0 : 30 },
     images: list,
     figures: tables.map((table, k) => ({
       table,
-      metrics: { SW1rel: 0.01 * (k + 1), TV: 0.034, light_m: 2.2e-4, below: k > 0 ? null : 1e-6 },
+      metrics: {
+        SW1rel: 0.00255 * (k + 1),
+        TV: 0.00617,
+        form: 0.00279,
+        light_s: 2.88e-7,
+        light_l: 8.42e-6,
+        light_m: 2.2e-4,
+        below: k > 0 ? null : 1e-6,
+      },
     })),
   };
 }
