@@ -1,8 +1,11 @@
 #include "fit/lobe_fit.h"
 
+#include <Eigen/LU>
+#include <limits>
 #include <stdexcept>
 
 #include "fit/target_lobe.h"
+#include "ggx/random.h"
 
 namespace ltcfit {
 namespace {
@@ -21,6 +24,8 @@ constexpr double kIsotropicSizeExponent = 0.25;
 constexpr double kAnisotropicSizeExponent = 0.4;
 // What judges the SW1 of light-space fits, for the summary.
 constexpr SlicedWassersteinLevel kJudge{.samples = 1024, .slices = 32, .targetSamples = 2048};
+// What decides between fits of a lobe that lights do not hold.
+constexpr SlicedWassersteinLevel kUnseen{.samples = 4096, .slices = 96, .targetSamples = 32768};
 
 // Fewer slices do for a matrix of the family; a stochastic descent leaves it.
 MatrixFamily judgedFamily(MatrixFamily family, Fitter fitter) {
@@ -138,14 +143,28 @@ LobeFit fitLobe(LobeFitTarget& target, const Matrix3d& start, const LobeFitOptio
               .termination = light.termination,
               .integralError = light.integralError,
               .restarted = light.restarted};
-  // Lights that do not hold the lobe: the other fit does.
+  // Lights that do not hold the lobe: the other fit does, or the start, whichever is best on samples that
+  // none has seen (of needles at grazing view the tails make up SW1, and a few thousand samples are
+  // overfitted).
   if (light.termination == Termination::kFailure ||
       target.judge()(light.m, nullptr) > kWorstLoss * target.judge()(target.momentStart(), nullptr)) {
     const LobeFit sw = fitBySlices(target, target.momentStart(), options);
-    fit.m = sw.m;
+    SlicedWassersteinFitOptions unseen;
+    unseen.levels = {kUnseen};
+    unseen.seed = mixSeed(options.sw.seed, 45);
+    ProjectedCdfLoss arbiter =
+        makeLoss(makeTarget(target.lobe(), target.family(), unseen), kUnseen, unseen.seed);
     fit.evaluations += sw.evaluations;
     fit.termination = sw.termination;
     fit.handedOver = true;
+    double best = std::numeric_limits<double>::infinity();
+    for (const Matrix3d& m : {sw.m, light.m, target.momentStart()}) {
+      if (!m.allFinite() || !(m.determinant() > 0.0)) continue;
+      if (const double loss = arbiter(m, nullptr); loss < best) {
+        best = loss;
+        fit.m = m;
+      }
+    }
   }
   return fit;
 }
