@@ -9,34 +9,13 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "ltc/ltc.h"
+#include "report/projections.h"
 
 namespace ltcfit {
 namespace {
 
 constexpr int kDirections = 256;
 constexpr int kProjections = 16;
-
-using Directions = Eigen::Matrix<double, 3, kDirections>;
-
-// A point of a lattice over the unit square: the golden ratio's multiples against even steps.
-Eigen::Vector2d latticePoint(int i, int n) {
-  return {(i + 0.5) / n, std::fmod((i + 0.5) / std::numbers::phi, 1.0)};
-}
-
-Directions lobeDirections(const Eigen::Matrix3d& m) {
-  Directions x;
-  for (int i = 0; i < kDirections; ++i) x.col(i) = sampleCosine(latticePoint(i, kDirections));
-  return (m * x).colwise().normalized();
-}
-
-// Even over the half sphere: opposite directions project alike.
-Eigen::Vector3d projection(int i) {
-  const Eigen::Vector2d u = latticePoint(i, kProjections);
-  const double radius = std::sqrt(1.0 - u.x() * u.x());
-  const double azimuth = 2.0 * std::numbers::pi * u.y();
-  return {radius * std::cos(azimuth), radius * std::sin(azimuth), u.x()};
-}
 
 bool sameNodes(const Table& a, const Table& b) {
   return std::equal(
@@ -67,17 +46,10 @@ bool has(const Table& table, std::string_view channel) {
 }  // namespace
 
 double lobeDistance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  const Directions x = lobeDirections(a);
-  const Directions y = lobeDirections(b);
-  double sum = 0.0;
-  for (int i = 0; i < kProjections; ++i) {
-    Eigen::Matrix<double, 1, kDirections> p = projection(i).transpose() * x;
-    Eigen::Matrix<double, 1, kDirections> q = projection(i).transpose() * y;
-    std::sort(p.data(), p.data() + kDirections);
-    std::sort(q.data(), q.data() + kDirections);
-    sum += (p - q).cwiseAbs().mean();
-  }
-  return sum / kProjections;
+  static const Eigen::Matrix3Xd cosine = evenCosineDirections(kDirections);
+  static const std::vector<Eigen::Vector3d> projections = evenProjections(kProjections);
+  return slicedDistance((a * cosine).colwise().normalized(), (b * cosine).colwise().normalized(),
+                        projections);
 }
 
 TableDifference compareTables(const Table& first, const Table& second) {

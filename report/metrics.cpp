@@ -57,12 +57,11 @@ MetricTarget::MetricTarget(const Lobe& lobe, const MetricOptions& options)
 
   projections_ = evenDirections(options.directions, options.seed);
   for (const Vector3d& w : projections_) {
-    std::vector<Weighted> sorted;
+    std::vector<WeightedPosition> sorted;
     for (std::size_t i = 0; i < lobeDirections_.size(); ++i) {
       if (lobeWeights_[i] > 0.0) sorted.push_back({w.dot(lobeDirections_[i]), lobeWeights_[i]});
     }
-    std::sort(sorted.begin(), sorted.end(),
-              [](const Weighted& a, const Weighted& b) { return a.position < b.position; });
+    sortPositions(sorted);
     sortedTarget_.push_back(std::move(sorted));
   }
 
@@ -82,26 +81,12 @@ double MetricTarget::sw1(const Ltc& ltc) const {
   const std::size_t n = cosineDirections_.size();
   std::vector<Vector3d> model(n);
   for (std::size_t i = 0; i < n; ++i) model[i] = ltc.transform(cosineDirections_[i]);
-  const double step = 1.0 / static_cast<double>(n);
   std::vector<double> f(n);
   double sum = 0.0;
   for (std::size_t k = 0; k < projections_.size(); ++k) {
     for (std::size_t i = 0; i < n; ++i) f[i] = projections_[k].dot(model[i]);
-    std::sort(f.begin(), f.end());
-    // integral of |F - G| over the merged positions
-    const std::vector<Weighted>& g = sortedTarget_[k];
-    std::size_t i = 0;
-    std::size_t j = 0;
-    double difference = 0.0;  // F - G left of the next position
-    double previous = std::min(f[0], g[0].position);
-    while (i < n || j < g.size()) {
-      const bool takeModel = j == g.size() || (i < n && f[i] <= g[j].position);
-      const double position = takeModel ? f[i] : g[j].position;
-      sum += std::abs(difference) * (position - previous);
-      previous = position;
-      difference += takeModel ? step : -g[j].weight;
-      takeModel ? ++i : ++j;
-    }
+    sortPositions(f);
+    sum += cdfDistance(f, sortedTarget_[k]);
   }
   return sum / static_cast<double>(projections_.size());
 }

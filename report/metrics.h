@@ -11,6 +11,7 @@
 #include "ggx/moments.h"
 #include "ltc/ltc.h"
 #include "ltc/table.h"
+#include "report/projections.h"
 #include "report/random_lights.h"
 
 namespace ltcfit {
@@ -83,10 +84,6 @@ class MetricTarget {
  private:
   void compareDensities(const Ltc& ltc, EntryMetrics& out) const;
 
-  struct Weighted {
-    double position;
-    double weight;
-  };
   struct Light {
     Quad quad;
     double integral;  // of g
@@ -99,7 +96,7 @@ class MetricTarget {
   std::vector<double> lobeWeights_;
   std::vector<Eigen::Vector3d> cosineDirections_;
   std::vector<Eigen::Vector3d> projections_;
-  std::vector<std::vector<Weighted>> sortedTarget_;  // for each projection
+  std::vector<std::vector<WeightedPosition>> sortedTarget_;  // for each projection
   std::vector<Light> quads_;
   std::array<std::vector<Light>, 3> lights_;
 };
