@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   addCompareCommand(app, status);
   addExportCommand(app, status);
   addParetoCommand(app, status);
+  addReportCommand(app, status);
   addStabilityCommand(app, status);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,26 @@
+# Writes OUTPUT, a C++ source with the page's parts as raw strings (builtInPage of page.h).
+#   cmake -DPAGE=... -DCHARTS=... -DOUTPUT=... -P embed_page.cmake
+function(embed name)
+  set(text "")
+  foreach(path ${ARGN})
+    file(READ ${path} part)
+    string(APPEND text "${part}")
+  endforeach()
+  string(FIND "${text}" ")ltcfit-page\"" inside)
+  if(NOT inside EQUAL -1)
+    message(FATAL_ERROR "${ARGN}: holds the end of the string that it is put into")
+  endif()
+  file(APPEND ${OUTPUT}.new "const char ${name}[] = R\"ltcfit-page(${text})ltcfit-page\";\n")
+endfunction()
+
+file(STRINGS ${PAGE}/scripts.txt scripts)
+list(TRANSFORM scripts PREPEND ${PAGE}/)
+file(WRITE ${OUTPUT}.new "#include \"report/page.h\"\n\nnamespace ltcfit {\nnamespace {\n\n")
+embed(kHtml ${PAGE}/page.html)
+embed(kCss ${PAGE}/page.css)
+embed(kCharts ${CHARTS})
+embed(kScript ${scripts})
+file(APPEND ${OUTPUT}.new "\n}  // namespace\n\nPageParts builtInPage() {\n  const auto text = [](const auto& array) { return std::string_view(array, sizeof array - 1); };\n"
+     "  return {text(kHtml), text(kCss), text(kCharts), text(kScript)};\n}\n\n}  // namespace ltcfit\n")
+file(COPY_FILE ${OUTPUT}.new ${OUTPUT} ONLY_IF_DIFFERENT)
+file(REMOVE ${OUTPUT}.new)
