@@ -1,12 +1,9 @@
 #include "report/pareto_json.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "report/figure.h"
 #include "report/pareto_text.h"
 
 namespace ltcfit {
@@ -16,21 +13,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-Json rounded(double v) {
-  if (!std::isfinite(v)) return nullptr;
-  return std::strtod(fmt::format("{:.5g}", v).c_str(), nullptr);
-}
-
 Json settingToJson(const FitSetting& setting, const SettingSummary& summary, const Json& defaultOf) {
   Json effort = Json::object();
   for (const auto& [name, value] : setting.effort) effort[name] = value;
   Json errors = Json::object();
   for (std::size_t m = 0; m < kParetoMetrics; ++m) {
     const SettingErrors& e = summary.errors[m];
-    errors[std::string(paretoMetrics()[m].name)] = {{"ratio", rounded(e.ratio.median)},
-                                                    {"low", rounded(e.ratio.low)},
-                                                    {"high", rounded(e.ratio.high)},
-                                                    {"value", rounded(e.value)},
+    errors[std::string(paretoMetrics()[m].name)] = {{"ratio", figure(e.ratio.median)},
+                                                    {"low", figure(e.ratio.low)},
+                                                    {"high", figure(e.ratio.high)},
+                                                    {"value", figure(e.value)},
                                                     {"front", e.front}};
   }
   return {{"fitter", setting.fitter},
@@ -41,9 +33,9 @@ Json settingToJson(const FitSetting& setting, const SettingSummary& summary, con
           {"entries", summary.entries},
           {"runs", summary.runs},
           {"cpu_seconds",
-           {{"median", rounded(summary.cpuSeconds.median)},
-            {"low", rounded(summary.cpuSeconds.low)},
-            {"high", rounded(summary.cpuSeconds.high)}}},
+           {{"median", figure(summary.cpuSeconds.median)},
+            {"low", figure(summary.cpuSeconds.low)},
+            {"high", figure(summary.cpuSeconds.high)}}},
           {"errors", errors},
           {"not_converged", summary.notConverged},
           {"non_finite", summary.nonFinite}};
@@ -67,10 +59,10 @@ Json paretoToJson(const ParetoOptions& options, const ParetoResult& result, cons
              {"lights", options.metrics.lights}}}};
   out["entries"] = Json::array();
   for (const LobeParameters& p : result.entries) {
-    out["entries"].push_back({{"alpha_x", rounded(p.alphaX)},
-                              {"alpha_y", rounded(p.alphaY)},
-                              {"theta_degrees", rounded(kDegrees * p.theta)},
-                              {"phi_degrees", rounded(kDegrees * p.phi)}});
+    out["entries"].push_back({{"alpha_x", figure(p.alphaX)},
+                              {"alpha_y", figure(p.alphaY)},
+                              {"theta_degrees", figure(kDegrees * p.theta)},
+                              {"phi_degrees", figure(kDegrees * p.phi)}});
   }
   out["metrics"] = Json::array();
   for (const ParetoMetric& m : paretoMetrics())

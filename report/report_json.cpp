@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <variant>
+
+#include "report/figure.h"
 
 namespace ltcfit {
 namespace {
@@ -230,11 +230,6 @@ Json lobeJson(const std::vector<ReportTable>& tables, const ReportLobe& lobe, co
 }
 
 }  // namespace
-
-Json figure(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
-}
 
 Json reportHead(const ReportSettings& settings) {
   Json metrics = Json::array();

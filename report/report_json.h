@@ -10,9 +10,6 @@
 
 namespace ltcfit {
 
-/// 5 significant digits; null for what is not finite.
-Json figure(double value);
-
 /// The options, as the file states them.
 struct ReportSettings {
   ReportOptions options;

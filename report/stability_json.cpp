@@ -1,22 +1,16 @@
 #include "report/stability_json.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <set>
+
+#include "report/figure.h"
 
 namespace ltcfit {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json figure(double v) {
-  if (!std::isfinite(v)) return nullptr;
-  return std::strtod(fmt::format("{:.4e}", v).c_str(), nullptr);
-}
 
 double degrees(double radians) {
   return std::round(radians / std::numbers::pi * 180.0 * 1e6) * 1e-6;

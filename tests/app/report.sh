@@ -83,6 +83,15 @@ import json; r = json.load(open('full.json'))
 assert r['pareto'] == [json.load(open('pareto.json'))] and r['stability'] == json.load(open('stability.json'))" || fail "files are changed on their way"
 [ "$(grep -o '</script>' full.html | wc -l)" = "$(grep -o '</script>' one.html | wc -l)" ] || fail "a name ends the script"
 
+# and those that the commands write
+echo '{"format": "ltcfit-stability-set", "version": 1, "name": "two", "alpha": [0.1], "lambda": [1, 0.1], "theta_degrees": [60], "phi_degrees": [17], "alpha_floor": 0.00001}' > set.json
+"$ltcfit" stability -q --set set.json --fitter light --seeds 1 -o real_stability.json > out.txt || fail "stability"
+for table in iso aniso; do
+  "$ltcfit" pareto -q --table $table --entries 2 --repeats 1 --fitter moments --samples 64 --directions 2 --quads 2 --lights 8 -o real_$table.json > out.txt || fail "pareto $table"
+done
+"$ltcfit" report iso.json $small --pareto real_iso.json --pareto real_aniso.json --stability real_stability.json -o full.html || fail "real pareto and stability"
+rm out.txt
+
 expect() { # MESSAGE OPTIONS...
   local message=$1
   shift

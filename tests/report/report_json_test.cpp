@@ -11,6 +11,7 @@
 #include "fit/isotropic_table_fit.h"
 #include "fit/target_lobe.h"
 #include "ggx/moments.h"
+#include "report/figure.h"
 
 namespace ltcfit {
 namespace {
