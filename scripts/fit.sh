@@ -4,6 +4,8 @@
 #   out/ltc_iso.h,    out/ltc_aniso.h       the same as C/C++ headers
 #   out/ltc_iso.csv,  out/ltc_aniso.csv     one line an entry
 #   out/ltc_iso.txt,  out/ltc_aniso.txt     their error: nodes, off-grid, extreme
+#   out/report.html,  out/report.json       all of it on one page, with error against run time and the stability of the fitters
+#                                           (out/pareto_iso.json, out/pareto_aniso.json, out/stability.json)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
@@ -24,3 +26,13 @@ for kind in iso aniso; do
 done
 score ltc_iso ltc2017-1.npy 512 --stored-as Minv
 score ltc_aniso kt2022-alpha-lambda-theta-phi.npy 512
+
+for kind in iso aniso; do build/ltcfit pareto --table $kind -o out/pareto_$kind.json > out/pareto_$kind.txt; done
+# 3: a limit is broken, which the page shows
+build/ltcfit stability -o out/stability.json > out/stability.txt || [ $? -eq 3 ]
+against=()
+for reference in ltc2017-1.npy kt2022-alpha-lambda-theta-phi.npy; do
+  if [ -f "$references/$reference" ]; then against+=(--against "$references/$reference"); fi
+done
+build/ltcfit report out/ltc_iso.json out/ltc_aniso.json "${against[@]}" --pareto out/pareto_iso.json \
+  --pareto out/pareto_aniso.json --stability out/stability.json -o out/report.html
