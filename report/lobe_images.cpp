@@ -24,7 +24,16 @@ using Density = std::function<double(const Eigen::Vector3d&)>;
 
 // Of picture coordinate `pixel`, in pixels from the upper or left edge.
 double toWindow(double pixel) {
-  return 2.0 * pixel / kPicturePixels - 1.0;
+  return 2.0 * pixel / static_cast<double>(kPicturePixels) - 1.0;
+}
+
+struct PixelPlace {
+  double column;
+  double row;
+};
+PixelPlace placeOf(std::size_t pixel) {
+  const std::size_t row = pixel / kPicturePixels;
+  return {static_cast<double>(pixel % kPicturePixels), static_cast<double>(row)};
 }
 
 Eigen::Vector3d directionAt(const LobeWindow& window, double column, double row) {
@@ -34,20 +43,20 @@ Eigen::Vector3d directionAt(const LobeWindow& window, double column, double row)
 std::vector<double> meanDensities(const LobeWindow& window, const Density& density) {
   std::vector<double> out;
   out.reserve(kPicturePixels * kPicturePixels);
-  for (int row = 0; row < kPicturePixels; ++row) {
-    for (int column = 0; column < kPicturePixels; ++column) {
-      double sum = 0.0;
-      for (int k = 0; k < kSubPixels * kSubPixels; ++k)
-        sum += density(directionAt(window, column + (k % kSubPixels + 0.5) / kSubPixels,
-                                   row + (k / kSubPixels + 0.5) / kSubPixels));
-      out.push_back(sum / (kSubPixels * kSubPixels));
+  for (std::size_t pixel = 0; pixel < kPicturePixels * kPicturePixels; ++pixel) {
+    const auto [column, row] = placeOf(pixel);
+    double sum = 0.0;
+    for (int y = 0; y < kSubPixels; ++y) {
+      for (int x = 0; x < kSubPixels; ++x)
+        sum += density(directionAt(window, column + (x + 0.5) / kSubPixels, row + (y + 0.5) / kSubPixels));
     }
+    out.push_back(sum / (kSubPixels * kSubPixels));
   }
   return out;
 }
 
 // Whether the horizon passes between this pixel's middle and that of the next one to the right or below.
-bool onHorizon(const LobeWindow& window, int column, int row) {
+bool onHorizon(const LobeWindow& window, double column, double row) {
   const bool above = directionAt(window, column + 0.5, row + 0.5).z() > 0.0;
   return above != (directionAt(window, column + 1.5, row + 0.5).z() > 0.0) ||
          above != (directionAt(window, column + 0.5, row + 1.5).z() > 0.0);
@@ -58,13 +67,10 @@ Picture painted(const LobeWindow& window, const std::vector<double>& values, Col
                 const Rgb& horizon) {
   Picture out{kPicturePixels, kPicturePixels, {}};
   out.rgb.reserve(3 * values.size());
-  for (int row = 0; row < kPicturePixels; ++row) {
-    for (int column = 0; column < kPicturePixels; ++column) {
-      const Rgb c = onHorizon(window, column, row)
-                        ? horizon
-                        : color(values[static_cast<std::size_t>(row * kPicturePixels + column)]);
-      out.rgb.insert(out.rgb.end(), c.begin(), c.end());
-    }
+  for (std::size_t pixel = 0; pixel < values.size(); ++pixel) {
+    const auto [column, row] = placeOf(pixel);
+    const Rgb c = onHorizon(window, column, row) ? horizon : color(values[pixel]);
+    out.rgb.insert(out.rgb.end(), c.begin(), c.end());
   }
   return out;
 }

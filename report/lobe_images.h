@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,7 @@ struct LobeWindow {
 /// degrees at most.
 LobeWindow lobeWindow(const Eigen::Vector3d& mean, double spread, const Eigen::Vector3d& wo);
 
-inline constexpr int kPicturePixels = 160;
+inline constexpr std::size_t kPicturePixels = 160;
 
 /// Pictures of one lobe and of the LTCs of some tables.
 struct LobePictures {

@@ -47,6 +47,7 @@ std::vector<ReportLobe> drawLobes(const std::vector<ReportTable>& tables, const 
 TableReport reportTable(const std::vector<ReportTable>& tables, const ReportOptions& options,
                         const ScoreProgress& progress) {
   std::vector<const Table*> read;
+  read.reserve(tables.size());
   for (const ReportTable& table : tables) read.push_back(&table.read);
   const std::size_t nodes = read[0]->nodeCount();
   const std::size_t total = nodes + 2 * options.points;
