@@ -144,7 +144,8 @@ int stabilityCommand(const StabilityArguments& a) {
                                     [](const StabilityRow& row) { return row.isDefault; });
     if (judged) printLimits(result);
     fmt::print("\n");
-    for (const StabilityFinding& f : result.findings) fmt::print("{}:\n  {}\n", f.title, f.text);
+    for (const StabilityFinding& f : result.findings)
+      fmt::print("{}:\n  {} of {}: {}\n", f.title, f.rows, f.of, f.text);
     if (judged) {
       fmt::print("\n{} of the rows of {} break a limit\n", result.failed, fitterName(kDefaultFitter));
       printRows(result);

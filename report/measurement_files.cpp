@@ -118,14 +118,16 @@ void checkStability(const Json& json) {
   forEach(file, "summary", [](const JsonFields& fitter) {
     requireTexts(fitter, {"fitter"});
     requireTruths(fitter, {"default"});
-    requireCounts(fitter, {"rows", "failed", "non_finite", "runs"});
+    requireCounts(fitter, {"rows", "non_finite", "runs"});
+    if (fitter.get("default").get<bool>()) requireCounts(fitter, {"failed"});
     requireCountsByName(fitter, "outcomes");
   });
   forEach(file, "rows", [](const JsonFields& row) {
     requireParameters(row);
     requireTexts(row, {"fitter"});
-    requireTruths(row, {"default", "pass"});
-    requireCounts(row, {"runs", "non_finite", "det_negative"});
+    requireTruths(row, {"default"});
+    if (row.get("default").get<bool>()) requireTruths(row, {"pass"});
+    requireCounts(row, {"runs", "restarted", "handed_over", "non_finite", "det_negative"});
     requireCountsByName(row, "outcomes");
     requireFigures(
         row, {"sw1", "sw1_over_best", "tv", "spread_starts", "spread_seeds", "condition_m", "condition_raw",

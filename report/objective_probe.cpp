@@ -30,7 +30,7 @@ constexpr double kAside = 0.05;
 // Steps of the gradients' check: the cells of ProjectedCdfLoss are piecewise linear and hold float32
 // projections; the others are smooth down to where the condition of M leaves digits, which for needles of
 // 100:1 is sooner than for others. A wrong derivative is wrong at every step, so the smallest error counts.
-constexpr std::array<double, 1> kCellSteps{2e-3};
+constexpr std::array<double, 4> kCellSteps{5e-4, 2e-3, 1e-2, 5e-2};
 constexpr std::array<double, 4> kFineSteps{1e-4, 1e-5, 1e-6, 1e-7};
 constexpr int kSortedSamples = 2048;
 constexpr int kSortedSlices = 64;

@@ -105,7 +105,7 @@ std::vector<std::string_view> brokenLimits(const StabilityRow& row);
 /// A failure that theory promises, or one that is overcome: counted over rows.
 struct StabilityFinding {
   std::string title;
-  std::string text;
+  std::string text;      ///< what is counted, after "rows of `of`"
   std::size_t rows = 0;  ///< where it shows
   std::size_t of = 0;    ///< where it could
 };

@@ -35,9 +35,8 @@ StabilityFinding notReached(const std::vector<StabilityRow>& rows, Fitter fitter
     ++out.rows;
     flat += failed->outcome == Outcome::kFlat ? 1 : 0;
   }
-  out.text = fmt::format("{} of {} lobes are not reached", out.rows, out.of);
-  if (flat > 0)
-    out.text += fmt::format(", {} of them because nothing at the start says where the lobe is", flat);
+  out.text = out.rows == 0 ? std::string("every lobe is reached") : std::string("lobes that are not reached");
+  if (flat > 0) out.text += fmt::format("; for {} nothing at the start says where the lobe is", flat);
   return out;
 }
 
@@ -83,9 +82,9 @@ std::vector<StabilityFinding> stabilityFindings(const std::vector<StabilityRow>&
     }
     if (worse.of == 0) continue;
     worse.text = fmt::format(
-        "for sharp lobes (alpha <= {}) its condition is {:.1e} at the median, {:.1e} in the scaled "
-        "parameters; ten times worse for {} of {} lobes",
-        kSharpAlpha, median(raw), median(scaled), worse.rows, worse.of);
+        "sharp lobes (alpha <= {}) whose condition is ten times that in the scaled parameters or more; "
+        "medians {:.1e} and {:.1e}",
+        kSharpAlpha, median(raw), median(scaled));
     out.push_back(worse);
   }
   return out;

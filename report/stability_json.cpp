@@ -57,7 +57,7 @@ Json rowJson(const StabilityRow& row) {
           {"float32_shift", figure(row.float32Shift)},
           {"half_shift", figure(row.halfShift)},
           {"interpolation", row.interpolation ? figure(*row.interpolation) : Json(nullptr)},
-          {"pass", row.broken.empty()},
+          {"pass", row.isDefault ? Json(row.broken.empty()) : Json(nullptr)},
           {"broken", row.broken}};
 }
 
@@ -76,7 +76,7 @@ Json summaryJson(Fitter fitter, const std::vector<StabilityRow>& rows) {
   return {{"fitter", fitterName(fitter)},
           {"default", fitter == kDefaultFitter},
           {"rows", count},
-          {"failed", failed},
+          {"failed", fitter == kDefaultFitter ? Json(failed) : Json(nullptr)},
           {"non_finite", nonFinite},
           {"runs", runs},
           {"outcomes", outcomesJson(outcomes)}};

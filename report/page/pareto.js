@@ -62,7 +62,8 @@ function paretoSection(paretos) {
     return made;
   }
   let current = paretos[0];
-  let metric = current.metrics[0].name;
+  // what the defaults are chosen by
+  let metric = current.metrics.find(({ name }) => name === 'light')?.name ?? current.metrics[0].name;
   const controls = element('div', { class: 'controls' });
   const legend = element('div', {});
   const meaning = note();

@@ -13,23 +13,25 @@ const stabilityColumns = [
   ['fitter', 'fitter', 'which fitter; * is the default of the command line'],
   ['alpha_x', 'alpha_x', 'GGX alpha along x'],
   ['alpha_y', 'alpha_y', 'GGX alpha along y'],
-  ['theta (\u00b0)', 'theta_degrees', 'elevation of the view from the normal'],
+  ['theta (\u00b0)', 'theta_degrees', 'angle between view and normal'],
   ['phi (\u00b0)', 'phi_degrees', 'azimuth of the view'],
-  ['verdict', 'pass', 'within all limits'],
+  ['verdict', 'pass', 'within all limits, to which only the default fitter is held'],
   ['limits broken', 'broken', 'names of the limits'],
-  ['SW1', 'sw1', 'of the median run'],
-  ['SW1 / best', 'sw1_over_best', 'over the best of any run'],
-  ['TV', 'tv', 'total variation'],
-  ['spread of starts', 'spread_starts', 'how far results differ between starts'],
-  ['spread of seeds', 'spread_seeds', 'how far results differ between seeds'],
+  ['SW1', 'sw1', 'from the usual start, on samples that no fit sees'],
+  ['SW1 / best', 'sw1_over_best', 'the worst run over the best of any fitter, both at least a hundredth of the width'],
+  ['TV', 'tv', 'total variation between lobe and fit'],
+  ['spread of starts', 'spread_starts', '(largest - smallest) / smallest SW1 over the starts'],
+  ['spread of seeds', 'spread_seeds', 'the same over the seeds'],
   ['cond M', 'condition_m', 'condition number of M'],
-  ['cond raw', 'condition_raw', 'of the problem as posed'],
-  ['cond scaled', 'condition_scaled', 'of the problem as solved'],
-  ['gradient error', 'gradient_error', 'relative, against differences'],
-  ['float32 shift', 'float32_shift', 'what rounding to float32 does'],
-  ['half shift', 'half_shift', 'what rounding to half does'],
-  ['interpolation', 'interpolation', 'between this entry and the next'],
+  ['cond raw', 'condition_raw', 'of the Hessian over the entries of M'],
+  ['cond scaled', 'condition_scaled', 'of the Hessian over the parameters that the fit moves'],
+  ['gradient error', 'gradient_error', 'relative, of the derivatives against differences'],
+  ['float32 shift', 'float32_shift', 'of the lobe by float32 storage and inversion, in lobe widths'],
+  ['half shift (rad)', 'half_shift', 'of the lobe by half storage'],
+  ['interpolation', 'interpolation', 'SW1 between the lobe fetched from the default table and the direct fit, in lobe widths'],
   ['runs', 'runs', 'starts times seeds'],
+  ['restarted', 'restarted', 'runs whose own descent did not arrive, so that the usual start\u2019s was kept'],
+  ['handed over', 'handed_over', 'runs whose lobe the lights did not hold, so that another fit was taken'],
   ['not finite', 'non_finite', 'runs'],
   ['det < 0', 'det_negative', 'runs'],
   ['outcomes', 'outcomes', 'how the runs ended'],
@@ -38,7 +40,7 @@ const textKeys = new Set(['fitter', 'pass', 'broken', 'outcomes']);
 
 function sortValue(row, key) {
   if (key === 'broken') return row.broken.length;
-  if (key === 'pass') return row.pass ? 1 : 0;
+  if (key === 'pass') return row.default ? Number(row.pass) : null;
   if (key === 'outcomes') return outcomeText(row.outcomes);
   return row[key];
 }
@@ -57,7 +59,7 @@ function sorted(rows, key, descending) {
 function rowCells(row) {
   return stabilityColumns.map(([, key]) => {
     if (key === 'fitter') return row.fitter + (row.default ? ' *' : '');
-    if (key === 'pass') return verdictMark(row.pass);
+    if (key === 'pass') return row.default ? verdictMark(row.pass) : 'not judged';
     if (key === 'broken') return row.broken.join(', ');
     if (key === 'outcomes') return outcomeText(row.outcomes);
     return numberText(row[key]);
@@ -83,8 +85,9 @@ function nearness(row, limits) {
 
 // For paper: what failed, and what came nearest to failing.
 function printedRows(stability) {
-  const failed = stability.rows.filter((row) => !row.pass);
-  const worst = stability.rows
+  const judged = stability.rows.filter((row) => row.default);
+  const failed = judged.filter((row) => !row.pass);
+  const worst = judged
     .filter((row) => row.pass)
     .sort((a, b) => nearness(b, stability.limits) - nearness(a, stability.limits))
     .slice(0, 30);
@@ -94,7 +97,7 @@ function printedRows(stability) {
     .map((_, i) => i)
     .filter(
       (i) =>
-        !['outcomes', 'condition_raw', 'condition_scaled', 'runs', 'non_finite', 'det_negative'].includes(
+        !['outcomes', 'condition_raw', 'condition_scaled', 'runs', 'restarted', 'handed_over', 'non_finite', 'det_negative'].includes(
           stabilityColumns[i][1],
         ),
     );
@@ -119,7 +122,7 @@ function addRowBrowser(parent, stability) {
     const matching = stability.rows.filter(
       (row) =>
         (state.fitter === '' || row.fitter === state.fitter) &&
-        (state.verdict === '' || row.pass === (state.verdict === 'pass')),
+        (state.verdict === '' || (row.default && row.pass === (state.verdict === 'pass'))),
     );
     const ordered = state.key === null ? matching : sorted(matching, state.key, state.descending);
     const pages = Math.max(1, Math.ceil(ordered.length / pageSize));
@@ -128,7 +131,7 @@ function addRowBrowser(parent, stability) {
     const rows = ordered.slice(first, first + pageSize);
     const body = tableOf('', plainColumns(), rows.map(rowCells)).tBodies[0];
     rows.forEach((row, i) => {
-      if (!row.pass) body.rows[i].classList.add('failed');
+      if (row.default && !row.pass) body.rows[i].classList.add('failed');
     });
     made.tBodies[0].replaceWith(body);
     position.textContent =
@@ -203,8 +206,8 @@ function stabilitySection(stability) {
         stability.summary.map((entry) => [
           entry.fitter + (entry.default ? ' *' : ''),
           countText(entry.rows),
-          countText(entry.failed),
-          verdictMark(entry.failed === 0),
+          entry.default ? countText(entry.failed) : '\u2013',
+          entry.default ? verdictMark(entry.failed === 0) : 'not judged',
           countText(entry.runs),
           countText(entry.non_finite),
           ...names.map((name) => countText(entry.outcomes[name] ?? 0)),
@@ -231,7 +234,7 @@ function stabilitySection(stability) {
   }
   if (stability.findings.length > 0) {
     made.append(
-      element('h3', {}, 'Known weaknesses, looked for again'),
+      element('h3', {}, 'Known weaknesses of fitters, looked for again'),
       element(
         'ul',
         { class: 'findings' },
@@ -240,8 +243,8 @@ function stabilitySection(stability) {
             'li',
             {},
             element('strong', {}, finding.title),
-            `: ${finding.seen ? 'seen' : 'not seen'}, ${countText(finding.rows)} of `,
-            `${countText(finding.of)} rows. ${finding.text}`,
+            `: ${finding.seen ? 'seen' : 'not seen'}. ${countText(finding.rows)} of `,
+            `${countText(finding.of)} lobes: ${finding.text}.`,
           ),
         ),
       ),

@@ -334,6 +334,8 @@ export function sampleStability(perFitter = 144) {
         default: f === 0,
         runs: 12,
         outcomes: pass ? { converged: 12 } : { converged: 9, 'no-overlap': 3 },
+        restarted: i % 7,
+        handed_over: i % 3,
         non_finite: 0,
         det_negative: 0,
         sw1: 0.01 * random(),
@@ -348,8 +350,8 @@ export function sampleStability(perFitter = 144) {
         float32_shift: 1e-6 * random(),
         half_shift: 1e-3 * random(),
         interpolation: i % 5 === 0 ? null : 1 + random(),
-        pass,
-        broken: pass ? [] : ['spread_starts'],
+        pass: f === 0 ? pass : null,
+        broken: pass || f > 0 ? [] : ['spread_starts'],
       };
     }),
   );
@@ -367,12 +369,12 @@ export function sampleStability(perFitter = 144) {
         ? []
         : fitters.map((fitter, f) => {
             const own = rows.filter((row) => row.fitter === fitter);
-            const failed = own.filter((row) => !row.pass).length;
+            const failed = own.filter((row) => row.outcomes['no-overlap']).length;
             return {
               fitter,
               default: f === 0,
               rows: own.length,
-              failed,
+              failed: f === 0 ? failed : null,
               non_finite: 0,
               runs: 12 * own.length,
               outcomes: { converged: 12 * own.length - 3 * failed, 'no-overlap': 3 * failed },
