@@ -1,6 +1,11 @@
 #!/usr/bin/env bash
-# Sets up, builds and runs all tests. Arguments go to ctest.
+# Sets up, builds and runs the tests: all but those labelled 'long', or with --all every one. Arguments go to ctest.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh --tests
-exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
+which=(-LE long)
+if [ "${1:-}" = --all ]; then
+  which=()
+  shift
+fi
+exec ctest --test-dir build --output-on-failure -j "$(nproc)" "${which[@]}" "$@"

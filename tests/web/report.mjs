@@ -1,7 +1,6 @@
-// The page of `ltcfit report` in headless Chromium, from disk: a real one, made-up ones, and broken ones.
-//   node report.mjs REPORT_HTML SOURCE_DIR BUILD_WEB CHROMIUM PICTURES
-// An empty REPORT_HTML leaves the real one out.
-import { mkdir, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+// The page of `ltcfit report` in headless Chromium, from disk: a real one and made-up ones, or broken ones.
+//   node report.mjs pages|broken REPORT_HTML SOURCE_DIR BUILD_WEB CHARTS CHROMIUM PICTURES
+import { mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -21,7 +20,7 @@ import {
 import { fillPage } from './report_fill.mjs';
 import { samples } from './report_sample.mjs';
 
-const [reportPath, sourceDir, buildWeb, chromiumPath, pictures] = process.argv.slice(2);
+const [part, reportPath, sourceDir, buildWeb, chartsPath, chromiumPath, pictures] = process.argv.slice(2);
 
 let failures = 0;
 function fail(text) {
@@ -117,6 +116,42 @@ const damages = [
   ['controls in print', '.slider input, details', 'details', print],
 ];
 
+async function goodPages(browser, work) {
+  const pages = { report: reportPath };
+  for (const [name, make] of Object.entries(samples)) {
+    pages[name] = join(work, `${name}.html`);
+    await writeFile(pages[name], await fillPage(sourceDir, chartsPath, make()));
+  }
+  const all = [standing, layout, keyboard, tooltips, selectors, sliders, rows, schemes, print, standing, layout];
+  for (const [name, path] of Object.entries(pages)) {
+    const found = [
+      ...(await inspect(browser, path, 1280, all)),
+      ...(await inspect(browser, path, 390, [standing, layout, tooltips, sliders, layout])),
+    ];
+    for (const text of found) fail(`${name}: ${text}`);
+    console.log(`${name}: ${found.length === 0 ? 'good' : `${found.length} problems`}`);
+    if (name !== 'bare') await photograph(browser, path, `report-${name}`);
+  }
+  console.log(`pictures in ${pictures}`);
+}
+
+// The made-up report has all that is broken here, whatever a real one holds.
+async function brokenPages(browser, work) {
+  const good = await fillPage(sourceDir, chartsPath, samples.full());
+  for (const [what, text, other, check] of damages) {
+    const broken = typeof text === 'string' ? good.replace(text, () => other) : good.replace(text, other);
+    if (broken === good) {
+      fail(`nothing to replace for: ${what}`);
+      continue;
+    }
+    const path = join(work, 'broken.html');
+    await writeFile(path, broken);
+    const found = await inspect(browser, path, 1280, [check]);
+    if (found.length === 0) fail(`nobody notices: ${what}`);
+    else console.log(`  caught: ${what}: ${found[0]}${found.length > 1 ? ` and ${found.length - 1} more` : ''}`);
+  }
+}
+
 await mkdir(pictures, { recursive: true });
 const work = await mkdtemp(join(tmpdir(), 'ltcfit-report-'));
 const { chromium } = (await load(buildWeb, 'playwright-core')).default;
@@ -131,40 +166,11 @@ const browser = await chromium.launch({
   ],
 });
 try {
-  const pages = reportPath ? { report: reportPath } : {};
-  for (const [name, make] of Object.entries(samples)) {
-    pages[name] = join(work, `${name}.html`);
-    await writeFile(pages[name], await fillPage(sourceDir, buildWeb, make()));
-  }
-  const all = [standing, layout, keyboard, tooltips, selectors, sliders, rows, schemes, print, standing, layout];
-  for (const [name, path] of Object.entries(pages)) {
-    const found = [
-      ...(await inspect(browser, path, 1280, all)),
-      ...(await inspect(browser, path, 390, [standing, layout, tooltips, sliders, layout])),
-    ];
-    for (const text of found) fail(`${name}: ${text}`);
-    console.log(`${name}: ${found.length === 0 ? 'good' : `${found.length} problems`}`);
-    if (name !== 'bare') await photograph(browser, path, `report-${name}`);
-  }
-
-  // the made-up report has all that is broken here, whatever the real one holds
-  const good = await readFile(pages.full, 'utf8');
-  for (const [what, text, other, check] of damages) {
-    const broken = typeof text === 'string' ? good.replace(text, () => other) : good.replace(text, other);
-    if (broken === good) {
-      fail(`nothing to replace for: ${what}`);
-      continue;
-    }
-    const path = join(work, 'broken.html');
-    await writeFile(path, broken);
-    const found = await inspect(browser, path, 1280, [check]);
-    if (found.length === 0) fail(`nobody notices: ${what}`);
-    else console.log(`  caught: ${what}: ${found[0]}${found.length > 1 ? ` and ${found.length - 1} more` : ''}`);
-  }
+  if (part === 'pages') await goodPages(browser, work);
+  else await brokenPages(browser, work);
 } finally {
   await browser.close();
   await rm(work, { recursive: true });
 }
-console.log(`pictures in ${pictures}`);
 if (failures > 0) console.log(`${failures} failed`);
 process.exitCode = failures > 0 ? 1 : 0;

@@ -6,17 +6,15 @@ import { join } from 'node:path';
 const jsonText = (value) => JSON.stringify(value).replaceAll('<', '\\u003c');
 const markupText = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 
-export async function fillPage(sourceDir, buildWeb, { report, images }) {
+// chartsPath: the charting library.
+export async function fillPage(sourceDir, chartsPath, { report, images }) {
   const page = join(sourceDir, 'report', 'page');
   const text = (name) => readFile(join(page, name), 'utf8');
   const scripts = (await text('scripts.txt')).split('\n').filter(Boolean);
   const parts = {
     '<!--LTCFIT-TITLE-->': markupText(report.tables.map((table) => table.name).join(', ')),
     '/*LTCFIT-CSS*/': await text('page.css'),
-    '/*LTCFIT-CHARTS*/': await readFile(
-      join(buildWeb, 'page', 'node_modules', 'echarts', 'dist', 'echarts.min.js'),
-      'utf8',
-    ),
+    '/*LTCFIT-CHARTS*/': await readFile(chartsPath, 'utf8'),
     '/*LTCFIT-SCRIPT*/': (await Promise.all(scripts.map(text))).join('\n'),
     '/*LTCFIT-REPORT*/': jsonText(report),
     '/*LTCFIT-IMAGES*/': jsonText(images),
