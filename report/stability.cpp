@@ -11,7 +11,6 @@
 #include <memory>
 #include <numbers>
 
-#include "export/half_matrix.h"
 #include "fit/l3_objective.h"
 #include "fit/moment_start.h"
 #include "fit/parallel_for.h"
@@ -19,13 +18,13 @@
 #include "report/compare.h"
 #include "report/metrics.h"
 #include "report/stability_findings.h"
+#include "report/storage_shift.h"
 #include "report/table_at_lobes.h"
 
 namespace ltcfit {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 constexpr const char* kBrdf = "ggx";
 // Samples that no fit sees, for SW1: the same for all runs on a lobe.
@@ -37,7 +36,6 @@ constexpr int kTvSamples = 4096;
 constexpr double kNeighbourAlpha = 1.5;
 constexpr double kNeighbourTheta = 5.0 / 180.0 * std::numbers::pi;
 constexpr double kFlatStep = 1e-2;
-constexpr int kShiftDirections = 64;
 
 constexpr std::array<Start, kStartCount> kStarts{Start::kMoments, Start::kIdentity, Start::kNeighbour,
                                                  Start::kNoOverlap};
@@ -51,37 +49,6 @@ LobeParameters neighbourOf(LobeParameters p) {
   p.alphaY = std::min(1.0, kNeighbourAlpha * p.alphaY);
   p.theta += p.theta > kNeighbourTheta ? -kNeighbourTheta : kNeighbourTheta;
   return p;
-}
-
-// Mean distance between M x / |M x| and M' x / |M' x|, radians.
-double shiftBetween(const Matrix3d& a, const Matrix3d& b) {
-  double sum = 0.0;
-  for (int i = 0; i < kShiftDirections; ++i) {
-    const Vector3d x =
-        sampleCosine({(i + 0.5) / kShiftDirections, std::fmod(i * (1.0 / std::numbers::phi), 1.0)});
-    sum += ((a * x).normalized() - (b * x).normalized()).norm();
-  }
-  return sum / kShiftDirections;
-}
-
-double float32ShiftOf(const Matrix3d& m) {
-  const Eigen::Matrix3f stored = normalized(m, MatrixNormalization::kThirdColumnUnit).cast<float>();
-  const Matrix3d inverse = Eigen::Matrix3f(stored.inverse()).cast<double>();
-  return shiftBetween(m, inverse.inverse());
-}
-
-double halfShiftOf(const Matrix3d& m, MatrixFamily family) {
-  std::array<bool, 9> free;
-  free.fill(true);
-  if (family != MatrixFamily::kGeneral)
-    for (int i = 0; i < 9; ++i) free[static_cast<std::size_t>(i)] = m(i / 3, i % 3) != 0.0;
-  const Matrix3d stored = normalized(m.inverse(), MatrixNormalization::kMiddleElement);
-  free[4] = false;
-  try {
-    return roundToHalf(stored, MatrixStorage::kMinv, free).shift;
-  } catch (const std::invalid_argument&) {  // an entry that no half reaches
-    return std::numeric_limits<double>::infinity();
-  }
 }
 
 // Everything about a lobe that judges fits of it.
@@ -229,8 +196,8 @@ std::vector<StabilityRow> runLobe(const LobeParameters& p, std::size_t index, co
       row.tv = judge.tv(m);
       row.probe = probeObjective(target, m, fit);
       const double spread = judge.metrics.moments().spread;
-      row.float32Shift = float32ShiftOf(m) / spread;
-      row.halfShift = halfShiftOf(m, job.family);
+      row.float32Shift = float32Shift(m) / spread;
+      row.halfShift = halfShift(m, job.family);
       if (isDefault && table != nullptr) {
         const TableEntry entry = table->fetch(p);
         if (entry.invertible) row.interpolation = lobeDistance(entry.m, m) / spread;

@@ -147,6 +147,12 @@ TEST(Metrics, EntryErrors) {
   EXPECT_FALSE(out.present[static_cast<std::size_t>(Metric::kFresnelError)]);  // no such channel: no figure
   EXPECT_TRUE(out.present[static_cast<std::size_t>(Metric::kDetError)]);
   EXPECT_LT(out.get(Metric::kDetError), 1e-5);
+  entry.norm = 0.9;
+  entry.fresnel = 0.07;
+  EntryMetrics other;
+  addEntryErrors(entry, MatrixStorage::kM, moments, other);
+  EXPECT_EQ(other.get(Metric::kAlbedoError), 0.0);
+  EXPECT_NEAR(other.get(Metric::kFresnelError), 0.03, 1e-12);
   // a matrix whose columns nearly coincide loses its determinant to float32
   entry.m << 1, 0, 1, 0, 1, 0, 1, 0, 1.0 + 1e-6;
   entry.mInv = entry.m.inverse();

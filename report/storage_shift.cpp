@@ -1,0 +1,52 @@
+#include "report/storage_shift.h"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "export/half_matrix.h"
+#include "ltc/ltc.h"
+
+namespace ltcfit {
+
+using Eigen::Matrix3d;
+
+namespace {
+
+constexpr int kDirections = 64;
+
+}  // namespace
+
+double lobeShift(const Matrix3d& a, const Matrix3d& b) {
+  double sum = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    const Eigen::Vector3d x =
+        sampleCosine({(i + 0.5) / kDirections, std::fmod(i * (1.0 / std::numbers::phi), 1.0)});
+    sum += ((a * x).normalized() - (b * x).normalized()).norm();
+  }
+  return sum / kDirections;
+}
+
+double float32Shift(const Matrix3d& m) {
+  const Eigen::Matrix3f stored = normalized(m, MatrixNormalization::kThirdColumnUnit).cast<float>();
+  const Matrix3d inverse = Eigen::Matrix3f(stored.inverse()).cast<double>();
+  return lobeShift(m, inverse.inverse());
+}
+
+double halfShift(const Matrix3d& m, MatrixFamily family) {
+  std::array<bool, 9> free;
+  for (int i = 0; i < 9; ++i)
+    free[static_cast<std::size_t>(i)] = family == MatrixFamily::kGeneral || m(i / 3, i % 3) != 0.0;
+  free[4] = false;  // 1
+  const Matrix3d stored = normalized(m.inverse(), MatrixNormalization::kMiddleElement);
+  try {
+    return lobeShift(m, roundToHalf(stored, MatrixStorage::kMinv, free).matrix.inverse());
+  } catch (const std::invalid_argument&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+}  // namespace ltcfit
