@@ -1,6 +1,7 @@
 #include "fit/lobe_fit.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -155,15 +156,20 @@ LobeFit fitLobe(LobeFitTarget& target, const Matrix3d& start, const LobeFitOptio
     ProjectedCdfLoss arbiter =
         makeLoss(makeTarget(target.lobe(), target.family(), unseen), kUnseen, unseen.seed);
     fit.evaluations += sw.evaluations;
-    fit.termination = sw.termination;
     fit.handedOver = true;
-    double best = std::numeric_limits<double>::infinity();
-    for (const Matrix3d& m : {sw.m, light.m, target.momentStart()}) {
-      if (!m.allFinite() || !(m.determinant() > 0.0)) continue;
-      if (const double loss = arbiter(m, nullptr); loss < best) {
-        best = loss;
-        fit.m = m;
-      }
+    const auto lossOf = [&](const Matrix3d& m) {
+      return m.allFinite() && m.determinant() > 0.0 ? arbiter(m, nullptr)
+                                                    : std::numeric_limits<double>::infinity();
+    };
+    const double lightLoss = lossOf(light.m);
+    const double swLoss = lossOf(sw.m);
+    if (swLoss <= lightLoss) {
+      fit.m = sw.m;
+      fit.termination = sw.termination;
+    }
+    if (lossOf(target.momentStart()) < std::min(lightLoss, swLoss)) {
+      fit.m = target.momentStart();
+      fit.startKept = true;
     }
   }
   return fit;

@@ -86,7 +86,9 @@ struct LobeFit {
   Termination termination = Termination::kFailure;
   double integralError = 0.0;  ///< kLight: estimated largest error of the true light integrals
   bool restarted = false;      ///< kLight, kSlicedWasserstein: the start's own descent did not arrive
-  bool handedOver = false;     ///< kLight: the fit lost its lobe; it, sw's or the start, the best by SW1
+  /// kLight: the best on unseen samples was the start, of which the others are overfitted improvements
+  bool startKept = false;
+  bool handedOver = false;  ///< kLight: the fit lost its lobe; it, sw's or the start, the best by SW1
 };
 
 /// Fits the lobe from `start`, a matrix of its family with det != 0. `options` must be valid, and those that

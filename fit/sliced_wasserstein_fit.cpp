@@ -255,9 +255,13 @@ SlicedWassersteinFit fitSlicedWasserstein(const SlicedWassersteinTarget& target,
     if (!elsewhere) return;
     elsewhere = false;
     const Matrix3d found = m;
+    const Termination termination = fit.termination;
     const double usual = descendFrom(objective, target.start);
     fit.restarted = !(own <= kArrived * usual);
-    if (own < (1.0 - kStartGain) * usual) m = found;
+    if (own < (1.0 - kStartGain) * usual) {
+      m = found;
+      fit.termination = termination;
+    }
   };
   std::optional<Chart> chart;
   for (std::size_t level = 0; level + 1 < options.levels.size(); ++level) {

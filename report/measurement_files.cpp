@@ -127,7 +127,7 @@ void checkStability(const Json& json) {
     requireTexts(row, {"fitter"});
     requireTruths(row, {"default"});
     if (row.get("default").get<bool>()) requireTruths(row, {"pass"});
-    requireCounts(row, {"runs", "restarted", "handed_over", "non_finite", "det_negative"});
+    requireCounts(row, {"runs", "restarted", "handed_over", "start_kept", "non_finite", "det_negative"});
     requireCountsByName(row, "outcomes");
     requireFigures(
         row, {"sw1", "sw1_over_best", "tv", "spread_starts", "spread_seeds", "condition_m", "condition_raw",

@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <span>
 
@@ -35,9 +35,6 @@ constexpr std::array<double, 4> kFineSteps{1e-4, 1e-5, 1e-6, 1e-7};
 constexpr int kSortedSamples = 2048;
 constexpr int kSortedSlices = 64;
 
-// Cost and gradient at base (I + sum of p_k B_k).
-using GradientFunction = std::function<double(const VectorXd&, VectorXd*)>;
-
 Matrix3d matrixAt(const Matrix3d& base, MatrixFamily family, const VectorXd& p) {
   return changedBy(base, family, {p.data(), static_cast<std::size_t>(p.size())});
 }
@@ -50,18 +47,6 @@ VectorXd toParameters(const Matrix3d& base, MatrixFamily family, const Matrix3d&
   for (Eigen::Index k = 0; k < g.size(); ++k)
     g[k] = relative.cwiseProduct(basis[static_cast<std::size_t>(k)]).sum();
   return g;
-}
-
-// Of the n largest absolute eigenvalues, the first over the last; the others belong to directions that
-// change nothing.
-double conditionOf(const MatrixXd& hessian, Eigen::Index n) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (hessian + hessian.transpose()),
-                                                       Eigen::EigenvaluesOnly);
-  std::vector<double> values;
-  for (const double v : solver.eigenvalues()) values.push_back(std::abs(v));
-  std::sort(values.rbegin(), values.rend());
-  const double least = values[static_cast<std::size_t>(n) - 1];
-  return least > 0.0 ? values[0] / least : std::numeric_limits<double>::infinity();
 }
 
 VectorXd aside(Eigen::Index n) {
@@ -81,27 +66,11 @@ MatrixXd hessianOf(const GradientFunction& cost, Eigen::Index n) {
   return hessian;
 }
 
-double gradientErrorOf(const GradientFunction& cost, Eigen::Index n, std::span<const double> steps) {
-  const VectorXd at = aside(n);
-  VectorXd given;
-  cost(at, &given);
-  double least = std::numeric_limits<double>::infinity();
-  for (const double step : steps) {
-    VectorXd difference(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const VectorXd h = step * VectorXd::Unit(n, k);
-      difference[k] = (cost(at + h, nullptr) - cost(at - h, nullptr)) / (2.0 * step);
-    }
-    least = std::min(least, (given - difference).norm() / difference.norm());
-  }
-  return least;
-}
-
 ObjectiveProbe probeGradient(const GradientFunction& cost, MatrixFamily family, const Matrix3d& m,
                              std::span<const double> steps) {
   const auto n = static_cast<Eigen::Index>(familyBasis(family).size());
   const MatrixXd hessian = hessianOf(cost, n);
-  return {conditionOf(hessian, n), rawCondition(hessian, family, m), gradientErrorOf(cost, n, steps)};
+  return {conditionOf(hessian, n), rawCondition(hessian, family, m), gradientErrorOf(cost, aside(n), steps)};
 }
 
 ObjectiveProbe probeCells(const LobeFitTarget& target, const Matrix3d& m, const LobeFitOptions& options) {
@@ -191,6 +160,36 @@ ObjectiveProbe probeL3(const LobeFitTarget& target, const Matrix3d& m, const Lob
 
 }  // namespace
 
+double gradientErrorOf(const GradientFunction& cost, const VectorXd& at, std::span<const double> steps) {
+  VectorXd given;
+  cost(at, &given);
+  double least = std::numeric_limits<double>::infinity();
+  for (const double step : steps) {
+    VectorXd difference(at.size());
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      const VectorXd h = step * VectorXd::Unit(at.size(), k);
+      difference[k] = (cost(at + h, nullptr) - cost(at - h, nullptr)) / (2.0 * step);
+    }
+    least = std::min(least, (given - difference).norm() / difference.norm());
+  }
+  return least;
+}
+
+double conditionOf(const MatrixXd& hessian, Eigen::Index n) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (hessian + hessian.transpose()),
+                                                       Eigen::EigenvaluesOnly);
+  std::vector<double> values;
+  for (const double v : solver.eigenvalues()) values.push_back(std::abs(v));
+  std::sort(values.rbegin(), values.rend());
+  const double least = values[static_cast<std::size_t>(n) - 1];
+  return least > 0.0 ? values[0] / least : std::numeric_limits<double>::infinity();
+}
+
+double conditionOf(const Matrix3d& m) {
+  const Eigen::Vector3d values = Eigen::JacobiSVD<MatrixXd>(m).singularValues();
+  return values[0] / values[2];
+}
+
 double rawCondition(const MatrixXd& hessian, MatrixFamily family, const Matrix3d& base) {
   const std::vector<Matrix3d>& basis = familyBasis(family);
   const auto n = static_cast<Eigen::Index>(basis.size());
@@ -205,7 +204,7 @@ double rawCondition(const MatrixXd& hessian, MatrixFamily family, const Matrix3d
       }
     }
   }
-  return conditionOf(change.transpose() * hessian * change, n);
+  return conditionOf(MatrixXd(change.transpose() * hessian * change), n);
 }
 
 ObjectiveProbe probeObjective(const LobeFitTarget& target, const Matrix3d& m, const LobeFitOptions& options) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
+#include <span>
 
 #include "fit/lobe_fit.h"
 
@@ -15,8 +17,8 @@ struct ObjectiveProbe {
   /// The same over the raw entries of M, third column of length 1, without the directions that leave the
   /// lobe as it is (scale, rotation about z from the right).
   double conditionRaw = 0.0;
-  /// Largest relative error of the derivatives that the fitter uses against central differences, near the
-  /// matrix; nothing for a fitter without (l3).
+  /// Relative error (norm) of the gradient, for light of the Jacobian, that the fitter uses against central
+  /// differences, near the matrix; the smallest over some steps. Nothing for a fitter without (l3).
   std::optional<double> gradientError;
 };
 
@@ -24,6 +26,21 @@ struct ObjectiveProbe {
 /// Gauss-Newton's; sw and sw-sgd by differences of the gradient, l3 of the cost. Independent of threads.
 ObjectiveProbe probeObjective(const LobeFitTarget& target, const Eigen::Matrix3d& m,
                               const LobeFitOptions& options);
+
+/// A cost and, unless null, its gradient.
+using GradientFunction = std::function<double(const Eigen::VectorXd&, Eigen::VectorXd*)>;
+
+/// Relative error (norm) of the gradient at a point against central differences: the smallest over the steps,
+/// as a wrong derivative is wrong at every step and a right one only where digits are left.
+double gradientErrorOf(const GradientFunction& cost, const Eigen::VectorXd& at,
+                       std::span<const double> steps);
+
+/// Of the n largest absolute eigenvalues of a symmetric matrix, the first over the last: the other ones
+/// belong to directions that change nothing. Infinite where the last is 0.
+double conditionOf(const Eigen::MatrixXd& hessian, Eigen::Index n);
+
+/// Of M: its largest over its smallest singular value.
+double conditionOf(const Eigen::Matrix3d& m);
 
 /// The condition of `hessian`, over the parameters of `family` about `base`, in the raw entries of M =
 /// base (I + sum of p_k B_k): a change E of the entries is P = base^-1 E.

@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,7 +29,8 @@ constexpr const char* kBrdf = "ggx";
 // Samples that no fit sees, for SW1: the same for all runs on a lobe.
 constexpr int kUnseenLobe = 16384;
 constexpr int kUnseenCosine = 8192;
-constexpr int kUnseenSlices = 96;
+constexpr int kUnseenSlices = 101;  // others than those of any preset
+constexpr double kTableFloor = AnisotropicTableOptions{}.alphaFloor;
 constexpr int kTvSamples = 4096;
 // The start "neighbour".
 constexpr double kNeighbourAlpha = 1.5;
@@ -65,8 +65,7 @@ struct Judge {
 
   double tv(const Matrix3d& m) const { return metrics.evaluate(Ltc(m)).get(Metric::kTv); }
   double overBest(double value, double best) const {
-    const double least = kSmallestError * metrics.moments().spread;
-    return std::max(value, least) / std::max(best, least);
+    return errorOver(value, best, metrics.moments().spread);
   }
 
   std::unique_ptr<Lobe> lobe;
@@ -108,6 +107,7 @@ Attempt attempt(LobeFitTarget& target, Judge& judge, Start start, const Matrix3d
   a.flatStart = options.fitter == Fitter::kL3 && isFlat(target, from, options);
   a.run.restarted = fit.restarted;
   a.run.handedOver = fit.handedOver;
+  a.run.startKept = fit.startKept;
   if (!fit.m.allFinite() || fit.m.determinant() == 0.0 || !fit.m.inverse().allFinite()) {
     a.run.sw1 = std::numeric_limits<double>::quiet_NaN();
     a.run.outcome = Outcome::kNonFinite;
@@ -139,7 +139,7 @@ Outcome outcomeOf(const Attempt& a, const Judge& judge, double best) {
   return Outcome::kConverged;
 }
 
-// (max - min) / min of SW1 over the runs that `take` picks; infinite where one is unusable.
+// Over the runs that `take` picks.
 template <class Take>
 double spreadOf(const std::vector<StabilityRun>& runs, const Take& take) {
   double low = std::numeric_limits<double>::infinity();
@@ -191,14 +191,13 @@ std::vector<StabilityRow> runLobe(const LobeParameters& p, std::size_t index, co
       fit.setSeed(1);
       const LobeFitTarget target(job, kBrdf, fit);
       const Matrix3d m = usual.m;
-      const Eigen::JacobiSVD<Matrix3d> svd(m);
-      row.conditionM = svd.singularValues()[0] / svd.singularValues()[2];
+      row.conditionM = conditionOf(m);
       row.tv = judge.tv(m);
       row.probe = probeObjective(target, m, fit);
       const double spread = judge.metrics.moments().spread;
       row.float32Shift = float32Shift(m) / spread;
-      row.halfShift = halfShift(m, job.family);
-      if (isDefault && table != nullptr) {
+      row.halfShift = halfShift(m, kindOf(p));
+      if (isDefault && table != nullptr && p.alphaY >= kTableFloor) {
         const TableEntry entry = table->fetch(p);
         if (entry.invertible) row.interpolation = lobeDistance(entry.m, m) / spread;
       }
@@ -219,13 +218,8 @@ std::vector<StabilityRow> runLobe(const LobeParameters& p, std::size_t index, co
                                                  : std::numeric_limits<double>::infinity();
       row.runs.push_back(a.run);
     }
-    for (const StabilityRun& one : row.runs) {
-      row.spreadStarts =
-          std::max(row.spreadStarts,
-                   spreadOf(row.runs, [&](const StabilityRun& run) { return run.seed == one.seed; }));
-    }
-    row.spreadSeeds =
-        spreadOf(row.runs, [](const StabilityRun& run) { return run.start == Start::kMoments; });
+    row.spreadStarts = spreadOverStarts(row.runs);
+    row.spreadSeeds = spreadOverSeeds(row.runs);
     if (row.isDefault) row.broken = brokenLimits(row);
   }
   return rows;
@@ -245,12 +239,33 @@ const std::vector<StabilityLimit>& stabilityLimits() {
       {"det_negative", 0.0, "matrices of negative determinant"},
       {"not_converged", 0.0, "runs that did not converge on the lobe"},
       {"spread_starts", 0.01, "spread of SW1 over the starts, where LTCs can represent the lobe (TV <= 0.2)"},
-      {"sw1_over_best", kOtherMinimum, "SW1 of the worst run over the best that any fitter found"},
+      {"sw1_over_best", kOtherMinimum,
+       "SW1 of the worst run over the best that any fitter found, both at least a hundredth of the lobe's "
+       "width"},
       {"gradient_error", 1e-4, "relative error of the derivatives against differences"},
-      {"float32_shift", 0.01, "shift of the lobe by float32 storage and inversion, in widths of the lobe"},
-      {"half_shift", 0.05, "shift of the lobe by half storage, radians; alpha_y from 0.001008 on"},
+      {"float32_shift", 0.01,
+       "shift of the lobe by float32 storage and inversion, in widths of the lobe: a hundredth is no error"},
+      {"half_shift", 0.05,
+       "shift of the lobe by half storage, radians, above which export warns; alpha_y from 0.001008 on"},
   };
   return limits;
+}
+
+double errorOver(double value, double best, double width) {
+  const double least = kSmallestError * width;
+  return std::max(value, least) / std::max(best, least);
+}
+
+double spreadOverStarts(const std::vector<StabilityRun>& runs) {
+  double largest = 0.0;
+  for (const StabilityRun& one : runs) {
+    largest = std::max(largest, spreadOf(runs, [&](const StabilityRun& r) { return r.seed == one.seed; }));
+  }
+  return largest;
+}
+
+double spreadOverSeeds(const std::vector<StabilityRun>& runs) {
+  return spreadOf(runs, [](const StabilityRun& r) { return r.start == Start::kMoments; });
 }
 
 double limitedFigure(const StabilityRow& row, std::string_view id) {

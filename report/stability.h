@@ -51,7 +51,8 @@ inline constexpr double kSmallestError = 0.01;
 inline constexpr double kFlatGradient = 1e-6;
 /// Up to this TV a lobe is one that LTCs can represent.
 inline constexpr double kRepresentableTv = 0.2;
-/// From this alpha_y on halves hold a lobe: the floor that half tables state (export/half_table.h).
+/// From this alpha_y on halves hold a lobe: the floor that `ltcfit export data/ltc_iso.json --precision half`
+/// states (HalfReport::alphaFloor).
 inline constexpr double kHalfAlpha = 0.001008;
 
 /// What the default fitters are held to. `id` is the name in the JSON.
@@ -69,6 +70,7 @@ struct StabilityRun {
   double sw1 = 0.0;         ///< on samples that no fit sees; NaN where the matrix is unusable
   bool restarted = false;   ///< LobeFit::restarted
   bool handedOver = false;  ///< LobeFit::handedOver
+  bool startKept = false;   ///< LobeFit::startKept
   bool detNegative = false;
 };
 
@@ -92,10 +94,17 @@ struct StabilityRow {
   double float32Shift = 0.0;
   double halfShift = 0.0;
   /// SW1 between the lobe fetched from the default table (its nodes fitted) and the direct fit, in widths;
-  /// for the default fitters.
+  /// for the default fitters, from the floor of the tables on (alpha_y 1e-4).
   std::optional<double> interpolation;
   std::vector<std::string_view> broken;  ///< ids of limits; of default fitters only
 };
+
+/// `value` over `best`, both at least kSmallestError of the lobe's width.
+double errorOver(double value, double best, double width);
+/// (max - min) / min of SW1: over the starts, the largest of all seeds; over the seeds, from the usual start.
+/// Infinite where a run is unusable.
+double spreadOverStarts(const std::vector<StabilityRun>& runs);
+double spreadOverSeeds(const std::vector<StabilityRun>& runs);
 
 /// The figure of a row that a limit of stabilityLimits() bounds.
 double limitedFigure(const StabilityRow& row, std::string_view id);

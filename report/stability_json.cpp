@@ -26,10 +26,14 @@ Json outcomesJson(const std::array<int, kOutcomeCount>& outcomes) {
 Json rowJson(const StabilityRow& row) {
   int restarted = 0;
   int handedOver = 0;
+  int startKept = 0;
   int negative = 0;
+  Json results = Json::array();
   for (const StabilityRun& run : row.runs) {
     restarted += run.restarted ? 1 : 0;
     handedOver += run.handedOver ? 1 : 0;
+    startKept += run.startKept ? 1 : 0;
+    results.push_back({startName(run.start), run.seed, outcomeName(run.outcome), figure(run.sw1)});
     negative += run.detNegative ? 1 : 0;
   }
   const LobeParameters& p = row.parameters;
@@ -43,6 +47,7 @@ Json rowJson(const StabilityRow& row) {
           {"outcomes", outcomesJson(row.outcomes)},
           {"restarted", restarted},
           {"handed_over", handedOver},
+          {"start_kept", startKept},
           {"non_finite", row.nonFinite},
           {"det_negative", negative},
           {"sw1", figure(row.sw1)},
@@ -58,7 +63,8 @@ Json rowJson(const StabilityRow& row) {
           {"half_shift", figure(row.halfShift)},
           {"interpolation", row.interpolation ? figure(*row.interpolation) : Json(nullptr)},
           {"pass", row.isDefault ? Json(row.broken.empty()) : Json(nullptr)},
-          {"broken", row.broken}};
+          {"broken", row.broken},
+          {"results", results}};
 }
 
 Json summaryJson(Fitter fitter, const std::vector<StabilityRow>& rows) {

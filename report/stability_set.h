@@ -16,7 +16,7 @@ struct StabilitySet {
   std::vector<double> lambda;  ///< alpha_y / alpha_x, in (0, 1]
   std::vector<double> thetaDegrees;
   std::vector<double> phiDegrees;
-  double alphaFloor = 1e-5;  ///< alpha_y is no smaller, as in tables; in [1e-5, 1]
+  double alphaFloor = 1e-5;  ///< alpha_y is no smaller; in [1e-5, 1]
 };
 
 /// Reads data/stability_set.json or a file like it. Throws std::invalid_argument naming the field: not JSON,

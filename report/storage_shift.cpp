@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "export/half_matrix.h"
+#include "export/half_table.h"
 #include "ltc/ltc.h"
 
 namespace ltcfit {
@@ -36,14 +37,17 @@ double float32Shift(const Matrix3d& m) {
   return lobeShift(m, inverse.inverse());
 }
 
-double halfShift(const Matrix3d& m, MatrixFamily family) {
+double halfShift(const Matrix3d& m, TableKind kind) {
   std::array<bool, 9> free;
-  for (int i = 0; i < 9; ++i)
-    free[static_cast<std::size_t>(i)] = family == MatrixFamily::kGeneral || m(i / 3, i % 3) != 0.0;
-  free[4] = false;  // 1
-  const Matrix3d stored = normalized(m.inverse(), MatrixNormalization::kMiddleElement);
+  for (int i = 0; i < 9; ++i) free[static_cast<std::size_t>(i)] = m(i / 3, i % 3) != 0.0;
   try {
-    return lobeShift(m, roundToHalf(stored, MatrixStorage::kMinv, free).matrix.inverse());
+    if (kind == TableKind::kIsotropic) {
+      free[4] = false;  // 1
+      const Matrix3d stored = normalized(m.inverse(), MatrixNormalization::kMiddleElement);
+      return lobeShift(m, roundToHalf(stored, MatrixStorage::kMinv, free).matrix.inverse());
+    }
+    const Matrix3d stored = normalized(m, MatrixNormalization::kThirdColumnUnit);
+    return lobeShift(m, roundToHalf(halfScale({stored}) * stored, MatrixStorage::kM, free).matrix);
   } catch (const std::invalid_argument&) {
     return std::numeric_limits<double>::infinity();
   }

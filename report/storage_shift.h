@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/matrix_family.h"
+#include "fit/lobe_fit.h"
 
 namespace ltcfit {
 
@@ -14,8 +14,9 @@ double lobeShift(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 /// Of M, third column of length 1, stored as float32 and inverted in float32.
 double float32Shift(const Eigen::Matrix3d& m);
 
-/// Of M^-1 over its middle element stored as halves (export/half_matrix.h); entries that the family leaves 0
-/// stay so. Infinite where an entry is one that no half reaches.
-double halfShift(const Eigen::Matrix3d& m, MatrixFamily family);
+/// Stored as halves as tables of the kind are (export/half_matrix.h): isotropic ones M^-1 over its middle
+/// element, anisotropic ones M times a power of two. Entries that are 0 stay so. Infinite where an entry is
+/// one that no half reaches.
+double halfShift(const Eigen::Matrix3d& m, TableKind kind);
 
 }  // namespace ltcfit

@@ -125,6 +125,7 @@ function paretoSection(paretos) {
       show();
     },
   );
+  metricSelect.select.value = metric;
   show();
   return made;
 }

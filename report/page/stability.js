@@ -32,6 +32,7 @@ const stabilityColumns = [
   ['runs', 'runs', 'starts times seeds'],
   ['restarted', 'restarted', 'runs whose own descent did not arrive, so that the usual start\u2019s was kept'],
   ['handed over', 'handed_over', 'runs whose lobe the lights did not hold, so that another fit was taken'],
+  ['start kept', 'start_kept', 'of those, runs whose start was better than any fit of it'],
   ['not finite', 'non_finite', 'runs'],
   ['det < 0', 'det_negative', 'runs'],
   ['outcomes', 'outcomes', 'how the runs ended'],
@@ -97,7 +98,7 @@ function printedRows(stability) {
     .map((_, i) => i)
     .filter(
       (i) =>
-        !['outcomes', 'condition_raw', 'condition_scaled', 'runs', 'restarted', 'handed_over', 'non_finite', 'det_negative'].includes(
+        !['outcomes', 'condition_raw', 'condition_scaled', 'runs', 'restarted', 'handed_over', 'start_kept', 'non_finite', 'det_negative'].includes(
           stabilityColumns[i][1],
         ),
     );

@@ -25,7 +25,7 @@ constexpr const char* kStability = R"({"format": "ltcfit-stability", "version": 
   "summary": [{"fitter": "sw", "default": false, "rows": 1, "failed": 0, "non_finite": 0, "runs": 3,
     "outcomes": {"converged": 3}}],
   "rows": [{"alpha_x": 0.1, "alpha_y": 0.1, "theta_degrees": 3, "phi_degrees": 0, "fitter": "sw",
-    "default": true, "runs": 3, "outcomes": {"converged": 3}, "restarted": 0, "handed_over": 0,
+    "default": true, "runs": 3, "outcomes": {"converged": 3}, "restarted": 0, "handed_over": 0, "start_kept": 0,
     "non_finite": 0, "det_negative": 0,
     "sw1": 0.1, "sw1_over_best": 1, "tv": 0.1, "spread_starts": 0, "spread_seeds": 0, "condition_m": 2,
     "condition_raw": 2, "condition_scaled": 2, "gradient_error": null, "float32_shift": 0, "half_shift": 0,

@@ -336,6 +336,7 @@ export function sampleStability(perFitter = 144) {
         outcomes: pass ? { converged: 12 } : { converged: 9, 'no-overlap': 3 },
         restarted: i % 7,
         handed_over: i % 3,
+        start_kept: i % 2,
         non_finite: 0,
         det_negative: 0,
         sw1: 0.01 * random(),
