@@ -39,13 +39,14 @@ std::string lobeText(const LobeParameters& p) {
 }
 
 void printSummary(const StabilityOptions& options, const StabilityResult& result) {
-  fmt::print("{:<8}{:>7}{:>7}{:>8}", "", "lobes", "runs", "failed");
+  fmt::print("{:<8}{:>6}{:>6}{:>8}{:>11}{:>13}{:>12}", "", "lobes", "runs", "failed", "restarted",
+             "handed over", "start kept");
   for (std::size_t o = 0; o < kOutcomeCount; ++o)
     fmt::print("{:>{}}", outcomeName(static_cast<Outcome>(o)),
                outcomeName(static_cast<Outcome>(o)).size() + 2);
   fmt::print("\n");
   for (const Fitter fitter : options.fitters) {
-    std::size_t rows = 0, runs = 0, failed = 0;
+    std::size_t rows = 0, runs = 0, failed = 0, restarted = 0, handedOver = 0, startKept = 0;
     std::array<int, kOutcomeCount> outcomes{};
     for (const StabilityRow& row : result.rows) {
       if (row.fitter != fitter) continue;
@@ -53,9 +54,15 @@ void printSummary(const StabilityOptions& options, const StabilityResult& result
       runs += row.runs.size();
       failed += row.broken.empty() ? 0 : 1;
       for (std::size_t o = 0; o < kOutcomeCount; ++o) outcomes[o] += row.outcomes[o];
+      for (const StabilityRun& run : row.runs) {
+        restarted += run.restarted ? 1 : 0;
+        handedOver += run.handedOver ? 1 : 0;
+        startKept += run.startKept ? 1 : 0;
+      }
     }
-    fmt::print("{:<8}{:>7}{:>7}{:>8}", fitterName(fitter), rows, runs,
-               fitter == kDefaultFitter ? fmt::format("{}", failed) : std::string("-"));
+    fmt::print("{:<8}{:>6}{:>6}{:>8}{:>11}{:>13}{:>12}", fitterName(fitter), rows, runs,
+               fitter == kDefaultFitter ? fmt::format("{}", failed) : std::string("-"), restarted, handedOver,
+               startKept);
     for (std::size_t o = 0; o < kOutcomeCount; ++o)
       fmt::print("{:>{}}", outcomes[o], outcomeName(static_cast<Outcome>(o)).size() + 2);
     fmt::print("\n");
@@ -82,6 +89,15 @@ void printLimits(const StabilityResult& result) {
     if (worst.row == nullptr) continue;
     fmt::print("  {:<15}{:>10.3g}  limit {:<7g}{}\n", limit.id, worst.value, limit.limit, limit.text);
     if (worst.value > 0.0) fmt::print("{:>29}at {}\n", "", lobeText(worst.row->parameters));
+  }
+  Worst seeds;
+  for (const StabilityRow& row : result.rows)
+    if (row.isDefault && row.tv <= kRepresentableTv) seeds.take(row.spreadSeeds, row);
+  if (seeds.row != nullptr) {
+    fmt::print(
+        "  {:<15}{:>10.3g}  no limit     spread of SW1 over the seeds: the noise of samples and lights\n",
+        "spread_seeds", seeds.value);
+    fmt::print("{:>29}at {}\n", "", lobeText(seeds.row->parameters));
   }
 }
 
@@ -140,6 +156,12 @@ int stabilityCommand(const StabilityArguments& a) {
   } else {
     fmt::print("{} lobes, \"{}\", each from {} starts\n\n", options.lobes.size(), set.name, kStartCount);
     printSummary(options, result);
+    fmt::print(
+        "restarted: the start's own descent did not arrive; light and sw descend from the moments' start as "
+        "well "
+        "and keep\nthat. handed over: lights did not hold the lobe, another fit was taken; start kept: or "
+        "the "
+        "start itself.\n");
     const bool judged = std::any_of(result.rows.begin(), result.rows.end(),
                                     [](const StabilityRow& row) { return row.isDefault; });
     if (judged) printLimits(result);

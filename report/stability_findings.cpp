@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ltcfit {
@@ -35,8 +36,30 @@ StabilityFinding notReached(const std::vector<StabilityRow>& rows, Fitter fitter
     ++out.rows;
     flat += failed->outcome == Outcome::kFlat ? 1 : 0;
   }
-  out.text = out.rows == 0 ? std::string("every lobe is reached") : std::string("lobes that are not reached");
+  out.text = "lobes that are not reached";
   if (flat > 0) out.text += fmt::format("; for {} nothing at the start says where the lobe is", flat);
+  return out;
+}
+
+// Of fits that descend from the usual start too: what the given start is worth alone.
+StabilityFinding ownDescents(const std::vector<StabilityRow>& rows, Fitter fitter) {
+  StabilityFinding out;
+  out.title =
+      fmt::format("{}: descents from other starts than the usual one, on their own", fitterName(fitter));
+  std::array<std::size_t, kStartCount> lobes{};
+  for (const StabilityRow& row : rows) {
+    if (row.fitter != fitter) continue;
+    ++out.of;
+    std::array<bool, kStartCount> lost{};
+    for (const StabilityRun& run : row.runs)
+      if (run.restarted) lost[static_cast<std::size_t>(run.start)] = true;
+    for (std::size_t s = 0; s < kStartCount; ++s) lobes[s] += lost[s] ? 1 : 0;
+    out.rows += std::find(lost.begin(), lost.end(), true) != lost.end() ? 1 : 0;
+  }
+  out.text = "lobes at which one does not arrive, so that the usual start's is kept:";
+  for (const Start start : {Start::kIdentity, Start::kNeighbour, Start::kNoOverlap})
+    out.text += fmt::format("{} {} {}", start == Start::kIdentity ? "" : ",", startName(start),
+                            lobes[static_cast<std::size_t>(start)]);
   return out;
 }
 
@@ -62,12 +85,12 @@ std::vector<StabilityFinding> stabilityFindings(const std::vector<StabilityRow>&
         rows, Fitter::kL3, Start::kIdentity, kSharpAlpha,
         fmt::format("Nelder-Mead on L3 from the identity, sharp lobes (alpha <= {})", kSharpAlpha)));
   }
-  for (const Fitter fitter : {Fitter::kSlicedWassersteinSgd, Fitter::kSlicedWasserstein, Fitter::kLight}) {
-    if (ran(fitter))
-      out.push_back(
-          notReached(rows, fitter, Start::kNoOverlap, 1.0,
-                     fmt::format("{} from a start that does not overlap the lobe", fitterName(fitter))));
+  if (ran(Fitter::kSlicedWassersteinSgd)) {
+    out.push_back(notReached(rows, Fitter::kSlicedWassersteinSgd, Start::kNoOverlap, 1.0,
+                             "sw-sgd from a start that does not overlap the lobe"));
   }
+  for (const Fitter fitter : {Fitter::kSlicedWasserstein, Fitter::kLight})
+    if (ran(fitter)) out.push_back(ownDescents(rows, fitter));
   for (const Fitter fitter : {Fitter::kLight, Fitter::kSlicedWasserstein}) {
     std::vector<double> raw, scaled;
     StabilityFinding worse{.title = fmt::format("{}: the Hessian in raw entries of M", fitterName(fitter)),

@@ -167,6 +167,15 @@ TEST(LightFit, WorksFromAnyStart) {
       EXPECT_LT(judge.cost(fit.m), 1.03 * judge.cost(best.m))
           << p.alphaX << " " << p.alphaY << " " << p.theta;
     }
+    // that is the work of the usual start, which is always tried; alone, a descent arrives from near by
+    EXPECT_FALSE(best.restarted);
+    const LightProblem own = makeLightProblem(lights.lights, c.target(), best.m, options);
+    EXPECT_LT(solveLightProblem(own, wide, options).cost, 1.03 * solveLightProblem(own, best.m, options).cost)
+        << p.alphaX << " " << p.alphaY << " " << p.theta;
+    EXPECT_FALSE(fitLights(c.target(), wide, options).restarted);
+    // and not from a needle that no light sees
+    const Matrix3d needle = projectOnFamily(away, c.family) * Vector3d(1e-3, 1e-3, 1.0).asDiagonal();
+    EXPECT_TRUE(fitLights(c.target(), needle, options).restarted);
   }
 }
 

@@ -201,6 +201,45 @@ TEST(Stability, JsonHasNullForWhatIsNotFinite) {
   EXPECT_EQ(json["limits"].size(), stabilityLimits().size());
 }
 
+TEST(Stability, SpreadsAndErrorsOverTheBest) {
+  std::vector<StabilityRun> runs(6);
+  const double sw1[] = {1.0, 1.1, 0.9, 2.0, 2.0, 2.2};  // two seeds, three starts each
+  for (std::size_t i = 0; i < 6; ++i) {
+    runs[i].seed = 1 + i / 3;
+    runs[i].start = static_cast<Start>(i % 3);
+    runs[i].sw1 = sw1[i];
+  }
+  EXPECT_NEAR(spreadOverStarts(runs), 1.1 / 0.9 - 1.0, 1e-12);
+  EXPECT_NEAR(spreadOverSeeds(runs), 1.0, 1e-12);
+  runs[4].sw1 = std::nan("");
+  EXPECT_TRUE(std::isinf(spreadOverStarts(runs)));
+  EXPECT_NEAR(spreadOverSeeds(runs), 1.0, 1e-12) << "from the usual start all are there";
+  EXPECT_NEAR(errorOver(0.3, 0.1, 1.0), 3.0, 1e-12);
+  EXPECT_NEAR(errorOver(0.03, 0.001, 1.0), 3.0, 1e-12) << "the best counts as a hundredth of the width";
+  EXPECT_EQ(errorOver(0.009, 0.001, 1.0), 1.0);
+}
+
+TEST(ObjectiveProbe, ConditionsOfKnownMatrices) {
+  Eigen::MatrixXd h = Eigen::Vector4d(8.0, -2.0, 4.0, 1e-14).asDiagonal();
+  EXPECT_NEAR(conditionOf(h, 3), 4.0, 1e-12) << "the fourth changes nothing";
+  EXPECT_GT(conditionOf(h, 4), 1e12);
+  EXPECT_NEAR(conditionOf(Matrix3d(Vector3d(2e-3, 1e-3, 1.0).asDiagonal())), 1000.0, 1e-6);
+}
+
+TEST(ObjectiveProbe, AWrongGradientShows) {
+  const Eigen::Matrix2d h{{3.0, 1.0}, {1.0, 2.0}};
+  double wrong = 0.0;
+  const GradientFunction cost = [&](const Eigen::VectorXd& p, Eigen::VectorXd* g) {
+    if (g != nullptr) *g = h * p + wrong * Eigen::Vector2d(0.0, 1.0);
+    return 0.5 * p.dot(h * p);
+  };
+  const std::vector<double> steps{1e-3, 1e-5};
+  const Eigen::VectorXd at = Eigen::Vector2d(1.0, -2.0);  // gradient (1, -3)
+  EXPECT_LT(gradientErrorOf(cost, at, steps), 1e-9);
+  wrong = 0.1;
+  EXPECT_NEAR(gradientErrorOf(cost, at, steps), 0.1 / std::sqrt(10.0), 1e-6);
+}
+
 TEST(ObjectiveProbe, RawEntriesAreWorseByTheSquareOfTheWidth) {
   // Equal curvatures in P: an entry in row 0 or 1 of M = diag(s, s, 1) (I + P) changes P by 1 / s, one in row
   // 2 by 1.
