@@ -154,7 +154,8 @@ int stabilityCommand(const StabilityArguments& a) {
   if (a.json) {
     fmt::print("{}", text);
   } else {
-    fmt::print("{} lobes, \"{}\", each from {} starts\n\n", options.lobes.size(), set.name, kStartCount);
+    fmt::print("{} {}, \"{}\", each from {} starts\n\n", options.lobes.size(),
+               options.lobes.size() == 1 ? "lobe" : "lobes", set.name, kStartCount);
     printSummary(options, result);
     fmt::print(
         "restarted: the start's own descent did not arrive; light and sw descend from the moments' start as "
@@ -166,8 +167,9 @@ int stabilityCommand(const StabilityArguments& a) {
                                     [](const StabilityRow& row) { return row.isDefault; });
     if (judged) printLimits(result);
     fmt::print("\n");
-    for (const StabilityFinding& f : result.findings)
-      fmt::print("{}:\n  {} of {}: {}\n", f.title, f.rows, f.of, f.text);
+    for (const StabilityFinding& f : result.findings) {
+      if (f.of > 0) fmt::print("{}:\n  {} of {}: {}\n", f.title, f.rows, f.of, f.text);
+    }
     if (judged) {
       fmt::print("\n{} of the rows of {} break a limit\n", result.failed, fitterName(kDefaultFitter));
       printRows(result);
@@ -180,8 +182,10 @@ int stabilityCommand(const StabilityArguments& a) {
 }  // namespace
 
 void addStabilityCommand(CLI::App& app, CommandStatus& status) {
-  CLI::App* const command = app.add_subcommand(
-      "stability", "Try the fitters on stiff and extreme lobes, from good and from bad starts");
+  CLI::App* const command =
+      app.add_subcommand("stability",
+                         "Try the fitters on stiff and extreme lobes, from good and from bad starts; exit "
+                         "code 3 where a row\nof the default fitter breaks a limit");
   auto a = std::make_shared<StabilityArguments>();
   command
       ->add_option("--set", a->set,
@@ -205,7 +209,6 @@ void addStabilityCommand(CLI::App& app, CommandStatus& status) {
       ->capture_default_str();
   command->add_flag("-q,--quiet", a->quiet, "No progress line");
   command->add_flag("--json", a->json, "Print JSON");
-  command->footer("Exit code 3 where a row of the default fitter breaks a limit.");
   command->callback([a, &status] { status.exitCode = stabilityCommand(*a); });
 }
 

@@ -280,21 +280,34 @@ def parse_arguments():
     return parser.parse_args()
 
 
+def run(arguments):
+    if arguments.command == "condense":
+        write_result(condense(arguments.raw), arguments.result)
+        return 0
+    if arguments.command == "show":
+        benchmarks, context = read_result(arguments.result)
+        print(f"{describe(context)}\n")
+        print_table(benchmarks)
+        return 0
+    return compare(arguments)
+
+
 def main():
     arguments = parse_arguments()
     try:
-        if arguments.command == "condense":
-            write_result(condense(arguments.raw), arguments.result)
-            return 0
-        if arguments.command == "show":
-            benchmarks, context = read_result(arguments.result)
-            print(f"{describe(context)}\n")
-            print_table(benchmarks)
-            return 0
-        return compare(arguments)
+        code = run(arguments)
+        if sys.stdout is None:
+            raise OSError("standard output is closed")
+        sys.stdout.flush()
+        return code
     except BadInput as error:
         print(error, file=sys.stderr)
         return 2
+    except OSError as error:
+        print(f"cannot write: {error}", file=sys.stderr)
+        # what is still buffered would fail again when the interpreter ends
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return 1
 
 
 if __name__ == "__main__":
