@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -145,7 +146,7 @@ int stabilityCommand(const StabilityArguments& a) {
         runStability(options, [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
   std::string command("ltcfit stability");
-  if (!a.set.empty()) command += " --set FILE";
+  if (!a.set.empty()) command += " --set " + std::filesystem::path(a.set).filename().string();
   for (const std::string& name : a.fitters) command += " --fitter " + name;
   if (a.seeds != StabilityOptions{}.seeds) command += fmt::format(" --seeds {}", a.seeds);
   if (a.full) command += " --full";
