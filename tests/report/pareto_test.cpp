@@ -69,6 +69,23 @@ TEST(Pareto, ErrorsDoNotDependOnThreads) {
   EXPECT_NE(same.summaries[0].errors[0].value, other.summaries[0].errors[0].value);
 }
 
+TEST(Pareto, FitsThatRunOutOfEvaluationsAreNotConverged) {
+  ParetoOptions options = smallOptions();
+  options.entries = 1;
+  options.fitters = {"moments", "l3"};
+  const ParetoResult result = runPareto(options);
+  const auto notConverged = [&](const std::string& name) {
+    for (std::size_t s = 0; s < result.settings.size(); ++s)
+      if (result.settings[s].name == name) return static_cast<int>(result.summaries[s].notConverged);
+    ADD_FAILURE() << name;
+    return -1;
+  };
+  // a lobe without symmetry has seven parameters: 100 evaluations are too few of a simplex, 1000 plenty
+  EXPECT_EQ(notConverged("256 samples, 100 evaluations"), 2);
+  EXPECT_EQ(notConverged("4096 samples, 1000 evaluations"), 0);
+  EXPECT_EQ(notConverged("the start"), 0);
+}
+
 TEST(Pareto, TheDefaultIsTheFitOfATable) {
   for (const TableKind kind : {TableKind::kIsotropic, TableKind::kAnisotropic}) {
     ParetoOptions options = smallOptions();
