@@ -110,6 +110,20 @@ TEST(StabilityFindings, EveryFitterIsCountedByItself) {
   EXPECT_TRUE(stabilityFindings({}).empty());
 }
 
+TEST(StabilityFindings, CountDescentsThatNeededTheUsualStart) {
+  std::vector<StabilityRow> rows{
+      row(Fitter::kLight, Start::kIdentity, 1.0), row(Fitter::kLight, Start::kNoOverlap, 1.0),
+      row(Fitter::kLight, Start::kNoOverlap, 1.0), row(Fitter::kL3, Start::kNoOverlap, 1.0)};
+  const char* const title = "light: descents from other starts than the usual one, on their own";
+  EXPECT_EQ(find(rows, title).rows, 0u);
+  EXPECT_EQ(find(rows, title).of, 3u);
+  for (const std::size_t i : {1u, 2u, 3u}) rows[i].runs[1].restarted = true;
+  // a second seed of the same lobe counts once
+  rows[1].runs.push_back(rows[1].runs[1]);
+  EXPECT_EQ(find(rows, title).rows, 2u);
+  EXPECT_TRUE(says(find(rows, title), "identity 0, neighbour 0, no-overlap 2")) << find(rows, title).text;
+}
+
 TEST(StabilityFindings, CountHessiansThatAreTenTimesWorse) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   StabilityRow blunt = probed(Fitter::kLight, 1e9, 1.0);
