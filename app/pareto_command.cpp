@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/metric_arguments.h"
 #include "app/progress.h"
 #include "export/atomic_file.h"
 #include "report/pareto.h"
@@ -142,18 +143,7 @@ void addParetoCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--seed", a->seed, "Seed of the first repeat, and of samples and lights; 0..2^53")
       ->check(CLI::Range(std::int64_t{0}, kLargestSeed))
       ->capture_default_str();
-  command->add_option("--samples", a->metrics.samples, "Directions of fit and lobe for SW1, TV, L3")
-      ->check(CLI::Range(16, 1 << 22))
-      ->capture_default_str();
-  command->add_option("--directions", a->metrics.directions, "Projections for SW1")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_option("--quads", a->metrics.quads, "Random quads for form")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_option("--lights", a->metrics.lights, "Random lights of each size, to measure with")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
+  addMetricOptions(*command, a->metrics);
   command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the errors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/metric_arguments.h"
 #include "app/progress.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
@@ -303,18 +304,7 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--seed", a->seed, "Seed of points, samples and lights, 0..2^53")
       ->check(CLI::Range(std::int64_t{0}, kLargestSeed))
       ->capture_default_str();
-  command->add_option("--samples", a->metrics.samples, "Directions of table and lobe for SW1, TV, L3")
-      ->check(CLI::Range(16, 1 << 22))
-      ->capture_default_str();
-  command->add_option("--directions", a->metrics.directions, "Projections for SW1")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_option("--quads", a->metrics.quads, "Random quads for form")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_option("--lights", a->metrics.lights, "Random lights of each size")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
+  addMetricOptions(*command, a->metrics);
   command->add_flag("--interpolation", a->interpolation,
                     "Also fit each point directly, as the table was, and report the interpolation ratio");
   command->add_option("--report", a->reportPath, "Also write a CSV with one line for each point")
