@@ -16,6 +16,12 @@ void requireTexts(const JsonFields& fields, std::initializer_list<const char*> k
   for (const char* key : keys) fields.text(key);
 }
 
+// Of processor time: shorter is below what a clock tells apart, longer than anybody waits.
+constexpr double kLeastSeconds = 1e-9;
+constexpr double kMostSeconds = 1e6;
+// Of an error over the best known: far above any real one, and the decades of an axis stay few.
+constexpr double kMostRatio = 1e30;
+
 // Numbers, or null for what could not be measured.
 void requireFigures(const JsonFields& fields, std::initializer_list<const char*> keys) {
   for (const char* key : keys)
@@ -25,6 +31,44 @@ void requireFigures(const JsonFields& fields, std::initializer_list<const char*>
 void requireCounts(const JsonFields& fields, std::initializer_list<const char*> keys) {
   for (const char* key : keys)
     if (!fields.get(key).is_number_unsigned()) throw InputError(fields.where(key) + " is not a count");
+}
+
+// As requireCounts, and at least 1.
+void requireSome(const JsonFields& fields, std::initializer_list<const char*> keys) {
+  requireCounts(fields, keys);
+  for (const char* key : keys)
+    if (fields.get(key).get<std::uint64_t>() == 0) throw InputError(fields.where(key) + " is 0");
+}
+
+// Where both are numbers.
+void requireOrder(const JsonFields& fields, const char* less, const char* more) {
+  if (fields.get(less).is_null() || fields.get(more).is_null()) return;
+  if (fields.number(less) > fields.number(more))
+    throw InputError(fmt::format("{} is above {}", fields.where(less), more));
+}
+
+void requireSeconds(const JsonFields& seconds) {
+  for (const char* key : {"low", "median", "high"}) {
+    const double value = seconds.number(key);
+    if (value < kLeastSeconds || value > kMostSeconds)
+      throw InputError(fmt::format("{} is {:g}, not a time within {:g}..{:g} s", seconds.where(key), value,
+                                   kLeastSeconds, kMostSeconds));
+  }
+  requireOrder(seconds, "low", "median");
+  requireOrder(seconds, "median", "high");
+}
+
+void requireRatios(const JsonFields& error) {
+  for (const char* key : {"low", "ratio", "high"}) {
+    if (error.get(key).is_null()) continue;
+    const double value = error.number(key);
+    if (!(value > 0.0 && value < kMostRatio))
+      throw InputError(
+          fmt::format("{} is {:g}, not a ratio above 0 and below {:g}", error.where(key), value, kMostRatio));
+  }
+  requireOrder(error, "low", "ratio");
+  requireOrder(error, "ratio", "high");
+  requireOrder(error, "low", "high");
 }
 
 void requireTruths(const JsonFields& fields, std::initializer_list<const char*> keys) {
@@ -86,13 +130,14 @@ void checkPareto(const Json& json) {
     setting.texts("default_of");
     const JsonFields effort(setting.get("effort"), setting.where("effort"));
     for (const auto& [key, value] : setting.get("effort").items()) effort.number(key.c_str());
-    requireCounts(setting, {"entries", "runs", "not_converged", "non_finite"});
-    requireFigures(JsonFields(setting.get("cpu_seconds"), setting.where("cpu_seconds")),
-                   {"median", "low", "high"});
+    requireSome(setting, {"entries", "runs"});
+    requireCounts(setting, {"not_converged", "non_finite"});
+    requireSeconds(JsonFields(setting.get("cpu_seconds"), setting.where("cpu_seconds")));
     const JsonFields errors(setting.get("errors"), setting.where("errors"));
     for (const std::string& metric : metrics) {
       const JsonFields error(errors.get(metric.c_str()), errors.where(metric.c_str()));
-      requireFigures(error, {"ratio", "low", "high", "value"});
+      requireRatios(error);
+      requireFigures(error, {"value"});
       requireTruths(error, {"front"});
     }
   });
@@ -119,7 +164,10 @@ void checkStability(const Json& json) {
     requireTexts(fitter, {"fitter"});
     requireTruths(fitter, {"default"});
     requireCounts(fitter, {"rows", "non_finite", "runs"});
-    if (fitter.get("default").get<bool>()) requireCounts(fitter, {"failed"});
+    if (fitter.get("default").get<bool>()) {
+      requireCounts(fitter, {"failed"});
+      requireOrder(fitter, "failed", "rows");
+    }
     requireCountsByName(fitter, "outcomes");
   });
   forEach(file, "rows", [](const JsonFields& row) {
@@ -132,7 +180,10 @@ void checkStability(const Json& json) {
     requireFigures(
         row, {"sw1", "sw1_over_best", "tv", "spread_starts", "spread_seeds", "condition_m", "condition_raw",
               "condition_scaled", "gradient_error", "float32_shift", "half_shift", "interpolation"});
-    row.texts("broken");
+    const bool broken = !row.texts("broken").empty();
+    if (row.get("default").get<bool>() && row.get("pass").get<bool>() == broken)
+      throw InputError(fmt::format("{} is {}, and {} is {}", row.where("pass"), !broken ? "false" : "true",
+                                   row.where("broken"), broken ? "not empty" : "empty"));
   });
   forEach(file, "findings", [](const JsonFields& finding) {
     requireTexts(finding, {"title", "text"});

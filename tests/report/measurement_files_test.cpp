@@ -1,5 +1,6 @@
 #include "report/measurement_files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -14,8 +15,8 @@ constexpr const char* kPareto = R"({"format": "ltcfit-pareto", "version": 1, "ta
   "entries": [{"alpha_x": 0.1, "alpha_y": 0.1, "theta_degrees": 3, "phi_degrees": 0}],
   "metrics": [{"name": "SW1", "unit": "", "meaning": "m"}],
   "settings": [{"fitter": "l3", "name": "n", "effort": {"samples": 3}, "preset": "", "default_of": ["fit iso"],
-    "entries": 1, "runs": 2, "cpu_seconds": {"median": 1, "low": 0.5, "high": null},
-    "errors": {"SW1": {"ratio": 1, "low": 1, "high": 1, "value": null, "front": true}},
+    "entries": 1, "runs": 2, "cpu_seconds": {"median": 1, "low": 0.5, "high": 2},
+    "errors": {"SW1": {"ratio": 2, "low": 1, "high": null, "value": null, "front": true}},
     "not_converged": 0, "non_finite": 0}],
   "defaults": [{"command": "fit iso", "setting": 0, "why": "w"}]})";
 
@@ -65,6 +66,25 @@ TEST(MeasurementFiles, DamagedOnesAreRefusedByTheField) {
   EXPECT_EQ(pareto("/settings", "x"), "f.json: settings is not an array");
   EXPECT_EQ(pareto("/settings/0/cpu_seconds/median", "1"),
             "f.json: settings[0].cpu_seconds.median is not a number");
+  for (const double seconds : {0.0, -1.0, 1e-10, 1e7, 1e300})
+    EXPECT_EQ(pareto("/settings/0/cpu_seconds/median", seconds),
+              fmt::format("f.json: settings[0].cpu_seconds.median is {:g}, not a time within 1e-09..1e+06 s",
+                          seconds));
+  EXPECT_EQ(pareto("/settings/0/cpu_seconds/high", nullptr),
+            "f.json: settings[0].cpu_seconds.high is not a number");
+  EXPECT_EQ(pareto("/settings/0/cpu_seconds/low", 1.5),
+            "f.json: settings[0].cpu_seconds.low is above median");
+  EXPECT_EQ(pareto("/settings/0/cpu_seconds/high", 0.5),
+            "f.json: settings[0].cpu_seconds.median is above high");
+  for (const double ratio : {0.0, -2.0, 1e30, 1e300})
+    EXPECT_EQ(pareto("/settings/0/errors/SW1/ratio", ratio),
+              fmt::format("f.json: settings[0].errors.SW1.ratio is {:g}, not a ratio above 0 and below 1e+30",
+                          ratio));
+  EXPECT_EQ(pareto("/settings/0/errors/SW1/low", 3), "f.json: settings[0].errors.SW1.low is above ratio");
+  EXPECT_EQ(pareto("/settings/0/errors/SW1/high", 1.5), "f.json: settings[0].errors.SW1.ratio is above high");
+  EXPECT_EQ(pareto("/settings/0/errors/SW1/ratio", nullptr), "accepted");
+  EXPECT_EQ(pareto("/settings/0/entries", 0), "f.json: settings[0].entries is 0");
+  EXPECT_EQ(pareto("/settings/0/runs", 0), "f.json: settings[0].runs is 0");
   EXPECT_EQ(pareto("/settings/0/errors", Json::object()), "f.json: settings[0].errors.SW1 is missing");
   EXPECT_EQ(pareto("/settings/0/errors/SW1/front", 1),
             "f.json: settings[0].errors.SW1.front is neither true nor false");
@@ -80,6 +100,17 @@ TEST(MeasurementFiles, DamagedOnesAreRefusedByTheField) {
   EXPECT_EQ(stability("/rows/0/outcomes/converged", nullptr),
             "f.json: rows[0].outcomes.converged is not a count");
   EXPECT_EQ(stability("/rows/0/broken", Json{1}), "f.json: rows[0].broken[0] is not a string");
+  EXPECT_EQ(stability("/rows/0/pass", false), "f.json: rows[0].pass is false, and rows[0].broken is empty");
+  EXPECT_EQ(stability("/rows/0/broken", Json{"tv"}),
+            "f.json: rows[0].pass is true, and rows[0].broken is not empty");
+  EXPECT_EQ(stability("/summary/0", Json{{"fitter", "sw"},
+                                         {"default", true},
+                                         {"rows", 1},
+                                         {"failed", 2},
+                                         {"non_finite", 0},
+                                         {"runs", 3},
+                                         {"outcomes", Json::object()}}),
+            "f.json: summary[0].failed is above rows");
   EXPECT_EQ(stability("/findings/0/seen", "yes"), "f.json: findings[0].seen is neither true nor false");
   EXPECT_EQ(messageOf([] { stabilityFromJson(kPareto, "f.json"); }),
             "f.json: not what is asked for: format is not \"ltcfit-stability\"");
