@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -162,13 +164,16 @@ std::string commandOf(const ReportArguments& a) {
   return out;
 }
 
-void printVerdicts(const std::string& name, const std::vector<Verdict>& verdicts) {
+// --quiet leaves out the summary, but not why a gate fails.
+void printVerdicts(const ReportArguments& a, const std::string& name, const std::vector<Verdict>& verdicts) {
   const auto passed =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passes(); });
-  fmt::print("{}: {} of {} limits are kept\n", name, passed, verdicts.size());
+  if (a.quiet && (!a.gate || passed == std::ssize(verdicts))) return;
+  std::FILE* const out = a.quiet ? stderr : stdout;
+  fmt::print(out, "{}: {} of {} limits are kept\n", name, passed, verdicts.size());
   for (const Verdict& v : verdicts) {
     if (!v.passes())
-      fmt::print("  not kept: {}: {:.4g}, limit {:.4g}{}{}\n", v.what, v.value, v.limit,
+      fmt::print(out, "  not kept: {}: {:.4g}, limit {:.4g}{}{}\n", v.what, v.value, v.limit,
                  v.detail.empty() ? "" : "; ", v.detail);
   }
 }
@@ -205,14 +210,15 @@ int report(const ReportArguments& a) {
     title += (title.empty() ? "" : ", ") + group[0].name;
     kept = kept && std::all_of(result.verdicts.begin(), result.verdicts.end(),
                                [](const Verdict& v) { return v.passes(); });
-    if (!a.quiet) printVerdicts(group[0].name, result.verdicts);
+    printVerdicts(a, group[0].name, result.verdicts);
   }
   const auto text = [](const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
   const std::string json = text(out);
-  writeFileAtomically(jsonPath(a.output), json + "\n");
+  // the page first: it is the larger one, and where it does not fit, the old pair stays
   writeFileAtomically(a.output, fillPage(page, title, json, text(images)));
+  writeFileAtomically(jsonPath(a.output), json + "\n");
   if (!a.quiet) fmt::print("{}, {}\n", a.output, jsonPath(a.output));
   return a.gate && !kept ? kExitQuality : kExitOk;
 }
@@ -263,7 +269,8 @@ void addReportCommand(CLI::App& app, CommandStatus& status) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_flag("--gate", a->gate, "Exit 3 where a table does not keep a limit");
-  command->add_flag("-q,--quiet", a->quiet, "No progress line, no summary");
+  command->add_flag("-q,--quiet", a->quiet,
+                    "No progress line, no summary; --gate still names the limits not kept, on stderr");
   command->callback([a, &status] { status.exitCode = report(*a); });
 }
 

@@ -75,6 +75,9 @@ def bad(name, source, change):
     json.dump(t, open(name, 'w'))
 bad('front.json', pareto, lambda t: t['settings'][0]['errors']['SW1'].pop('front'))
 bad('defaults.json', pareto, lambda t: t['defaults'].append({'command': 'x', 'setting': 3, 'why': ''}))
+def forever(t):
+    t['settings'][0]['cpu_seconds'].update(median=1e300, high=1e300)
+bad('forever.json', pareto, forever)
 bad('rows.json', stability, lambda t: t['rows'].append(entry))
 PY
 "$ltcfit" report iso.json $small --pareto pareto.json --stability stability.json -o full.html || fail "pareto and stability"
@@ -110,6 +113,7 @@ expect "cut.json: not valid JSON" iso.json --pareto cut.json -o x.html
 expect "big.json" iso.json --pareto big.json -o x.html
 expect "front.json: settings.0..errors.SW1.front is missing" iso.json --pareto front.json -o x.html
 expect "defaults.json: defaults.0..setting is not one of the 1 settings" iso.json --pareto defaults.json -o x.html
+expect "forever.json: settings.0..cpu_seconds.median is 1e+300, not a time within 1e-09..1e+06 s" iso.json --pareto forever.json -o x.html
 expect "pareto.json: table: a second file about 'iso'" iso.json --pareto pareto.json --pareto pareto.json -o x.html
 expect "stability.json: not what is asked for: format is not \"ltcfit-pareto\"" iso.json --pareto stability.json -o x.html
 expect "rows.json: rows.0..fitter is missing" iso.json --stability rows.json -o x.html
@@ -126,6 +130,14 @@ sha256sum --quiet -c before.txt || fail "an input was changed"
 rm -f before.txt
 [ "$(ls)" = "$(grep -v -e before.txt -e stderr.txt listing.txt)" ] || fail "files were left: $(ls | diff listing.txt - | tr '\n' ' ')"
 
+# a page that cannot be written leaves the old pair: room for the JSON, not for the page
+"$ltcfit" report iso.json $small -o pair.html || fail "the pair"
+sha256sum pair.html pair.json > pair.txt
+[ "$(stat -c %s pair.json)" -lt 204800 ] && [ "$(stat -c %s pair.html)" -gt 409600 ] || fail "the limit is not between the two"
+(trap '' XFSZ; ulimit -f 300; exec "$ltcfit" report iso.json $small --seed 2 -o pair.html 2> err.txt)
+[ $? -eq 1 ] && grep -q "pair.html: cannot write: File too large" err.txt || fail "a page of more than the limit: $(cat err.txt)"
+sha256sum --quiet -c pair.txt || fail "half of the pair was replaced"
+
 # limits that are not kept: shown, and exit 3 only if asked for
 python3 - <<'PY'
 import json
@@ -134,8 +146,11 @@ t['data'][7 * 9 + 5] += 0.1
 json.dump(t, open('spoilt.json', 'w'))
 PY
 "$ltcfit" report spoilt.json $small -o s.html || fail "exit $? without --gate"
-"$ltcfit" report spoilt.json $small --gate -o s.html
+"$ltcfit" report spoilt.json $small --gate -o s.html > out.txt 2> err.txt
 [ $? -eq 3 ] && [ -s s.html ] || fail "no exit 3 with --gate, or no page"
+[ -s out.txt ] && fail "quiet, and yet: $(cat out.txt)"
+grep -q "not kept: Norm, largest error at nodes: 0.1" err.txt || fail "quiet, and no limit named: $(cat err.txt)"
+"$ltcfit" report spoilt.json $small -o s.html 2> err.txt && [ ! -s err.txt ] || fail "no gate asked for: $(cat err.txt)"
 "$ltcfit" report iso.json --against spoilt.json --samples 128 --directions 4 --points 8 --gate -o g.html > summary.txt || fail "a good table does not pass the gate"
 grep -q "iso.json: 14 of 14 limits are kept" summary.txt || fail "summary: $(cat summary.txt)"
 finish
