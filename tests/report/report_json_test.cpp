@@ -6,12 +6,14 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "fit/isotropic_table_fit.h"
 #include "fit/target_lobe.h"
 #include "ggx/moments.h"
 #include "report/figure.h"
+#include "report/verdicts.h"
 
 namespace ltcfit {
 namespace {
@@ -142,6 +144,60 @@ TEST(ReportJson, VerdictsTellAGoodTableFromASpoiltOne) {
   EXPECT_NEAR(find(bad, "what", "Norm, largest error at nodes")["value"].get<double>(), 0.1, 1e-4);
   EXPECT_EQ(find(bad, "what", "Nodes where det M is not above 0")["value"], 1.0);
   EXPECT_TRUE(find(bad, "what", "Fresnel, largest error at nodes")["pass"].get<bool>());
+}
+
+TEST(Verdicts, RatioOfMeansAndItsStandardError) {
+  // a = {1, 2, 3, 6}, b = {2, 2, 4, 4}: ratio 1, differences -1, 0, -1, 2, sd sqrt(6 / 3), over sqrt(4) * 3
+  const MeanRatio r = ratioOfMeans({1, 2, 3, 6}, {2, 2, 4, 4});
+  EXPECT_NEAR(r.ratio, 1.0, 1e-15);
+  EXPECT_NEAR(r.standardError, std::sqrt(2.0) / 6.0, 1e-15);
+  EXPECT_EQ(r.points, 4u);
+  // a common factor of all points leaves nothing to chance
+  const MeanRatio twice = ratioOfMeans({2, 6, 10}, {1, 3, 5});
+  EXPECT_EQ(twice.ratio, 2.0);
+  EXPECT_EQ(twice.standardError, 0.0);
+  // pairs with a hole are left out of both
+  const MeanRatio holes = ratioOfMeans({1, 2, 3, 6, 100, 5}, {2, 2, 4, 4, std::nan(""), INFINITY});
+  EXPECT_EQ(holes.ratio, r.ratio);
+  EXPECT_EQ(holes.standardError, r.standardError);
+  EXPECT_EQ(holes.points, 4u);
+  EXPECT_EQ(ratioOfMeans({3}, {2}).ratio, 1.5);
+  EXPECT_EQ(ratioOfMeans({3}, {2}).standardError, 0.0);
+  EXPECT_TRUE(std::isnan(ratioOfMeans({1}, {0}).ratio));
+  EXPECT_TRUE(std::isnan(ratioOfMeans({}, {}).ratio));
+}
+
+TEST(Verdicts, TheStandardErrorIsTheSpreadOverDraws) {
+  std::mt19937_64 random(1);
+  const auto draw = [&] { return 0.5 + static_cast<double>(random() >> 11) * 0x1p-53; };
+  constexpr int kDraws = 400;
+  double sum = 0.0, squares = 0.0, told = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    std::vector<double> a, b;
+    for (int k = 0; k < 100; ++k) {
+      b.push_back(draw());
+      a.push_back(0.8 * b.back() * draw());
+    }
+    const MeanRatio r = ratioOfMeans(a, b);
+    sum += r.ratio;
+    squares += r.ratio * r.ratio;
+    told += r.standardError / kDraws;
+  }
+  const double spread = std::sqrt((squares - sum * sum / kDraws) / (kDraws - 1));
+  // a spread over 400 draws is known to 1 / sqrt(800) = 3.5 %: four of these
+  EXPECT_NEAR(told / spread, 1.0, 0.14);
+}
+
+TEST(Verdicts, LimitsOfRatiosLeaveRoomForChance) {
+  const ReportSettings settings = quick();
+  const std::vector<ReportTable> tables{fitted("a"), widened("b")};
+  Json images = Json::object();
+  const Json verdicts = tableReportJson(tables, reportTable(tables, settings.options), 0, images)["verdicts"];
+  const Json& light = find(verdicts, "what", "Mean light_m off-grid over that of b");
+  EXPECT_GT(light["limit"].get<double>(), 1.0);
+  const std::string detail = light["detail"].get<std::string>();
+  EXPECT_EQ(detail.rfind("1 and two standard errors, ", 0), 0u) << detail;
+  EXPECT_NE(detail.find(" each, over 10 points"), std::string::npos) << detail;
 }
 
 TEST(LobeImages, TheWindowIsAboutTheMeanWithTheNormalUp) {
