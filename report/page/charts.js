@@ -63,7 +63,7 @@ function logAxis(colors, name, gap, low, high, most, format = numberText) {
   };
 }
 
-// Adds a chart to `parent`. option(colors, width) gives what ECharts draws, label() the text that stands for it.
+// Adds a chart to `parent`. option(colors, width, height) gives what ECharts draws, label() the text that stands for it.
 function addChart(parent, id, option, label) {
   const box = element('div', { class: 'chart', id, role: 'img' });
   parent.append(box);
@@ -79,7 +79,7 @@ function addChart(parent, id, option, label) {
       instance ??= echarts.init(box, null, { renderer: 'canvas', devicePixelRatio: Math.max(2, devicePixelRatio) });
       // a resize draws everything once more
       if (instance.getWidth() !== box.clientWidth || instance.getHeight() !== box.clientHeight) instance.resize();
-      instance.setOption({ ...frame(theme()), ...option(theme(), box.clientWidth) }, { notMerge: true });
+      instance.setOption({ ...frame(theme()), ...option(theme(), box.clientWidth, box.clientHeight) }, { notMerge: true });
       box.setAttribute('aria-label', label());
     },
   };

@@ -22,7 +22,14 @@ function mapSection(table, metrics, id) {
   made.append(
     note('Each cell is a node. One colour scale for all tables and all slices; the lowest 2 % share a colour.'),
   );
-  addNodeMap(made, table, { id: `${id}-map`, what: 'Metric', quantities });
+  addNodeMap(made, table, {
+    id: `${id}-map`,
+    what: 'Metric',
+    quantities,
+    ratioNote:
+      'Errors of single nodes are estimates from a few samples, quads and lights, and their ratios scatter: read regions, ' +
+      'not cells.',
+  });
   if (table.against.length === 0)
     made.append(absent('Maps of another table and of the ratio to it', '--against FILE'));
   return made;

@@ -1,7 +1,8 @@
 // A map of values over two axes of a table, with sliders for the other axes.
 //
 // quantities: [{ key, name, unit, values: Map from table name to one value for each node or null }].
-// The caller says what the first selector is called; the second chooses a table, or this table over another.
+// The caller says what the first selector is called; the second chooses a table, or this table over another, to which
+// ratioNote is then said.
 
 const defaultAxes = (axes) => {
   const at = (name) => axes.findIndex((axis) => axis.name === name);
@@ -154,7 +155,7 @@ function worstTable(table, view, title) {
   );
 }
 
-function addNodeMap(parent, table, { id, what, quantities }) {
+function addNodeMap(parent, table, { id, what, quantities, ratioNote = null }) {
   const axes = table.axes;
   const state = {
     quantity: quantities[0],
@@ -240,6 +241,7 @@ function addNodeMap(parent, table, { id, what, quantities }) {
     legend.replaceChildren(
       logColorBar(`${legendTitle} (logarithmic)`, state.view.ratio ? blueOrange : viridis, scale, format()),
       ...(holes ? [element('p', { class: 'holes' }, element('span', { class: 'hole' }), ' no value')] : []),
+      ...(state.view.ratio && ratioNote ? [note(ratioNote)] : []),
     );
     side.replaceChildren(
       scrolling(worstTable(table, state.view, state.view.ratio ? 'ratio' : title()), 'Highest values'),

@@ -80,6 +80,10 @@ function verdictSection(report) {
       verdict.detail || '',
     ]);
     const made = tableOf(table.name, columns, rows);
+    made.classList.add('verdicts');
+    // on a phone the cells stand under one another, without their headings
+    for (const row of made.tBodies[0].rows)
+      [...row.cells].forEach((cell, i) => cell.setAttribute('data-title', columns[i].title));
     ordered.forEach((verdict, i) => {
       if (!verdict.pass) made.tBodies[0].rows[i].classList.add('failed');
     });

@@ -1,8 +1,16 @@
 // Error reached against run time, for every fitter and setting: the section around the chart.
 
-function rangeText(middle, low, high) {
-  if (!isNumber(low) || !isNumber(high) || low === high) return numberText(middle);
-  return `${numberText(middle)} (${numberText(low)} to ${numberText(high)})`;
+function rangeText(middle, low, high, format = numberText) {
+  if (!isNumber(low) || !isNumber(high) || low === high) return format(middle);
+  return `${format(middle)} (${format(low)} to ${format(high)})`;
+}
+
+const timeText = ({ median, low, high }) => rangeText(median, low, high, milliseconds);
+
+// The metrics to choose from. Over the best known at each entry, the lobe's width cancels: SW1rel shows nothing new.
+function metricNames(pareto) {
+  const same = pareto.settings.every(({ errors: { SW1, SW1rel } }) => SW1 && SW1rel && SW1.ratio === SW1rel.ratio);
+  return pareto.metrics.map(({ name }) => name).filter((name) => !(same && name === 'SW1rel'));
 }
 
 function settingTable(pareto, metric) {
@@ -10,7 +18,7 @@ function settingTable(pareto, metric) {
     { title: 'Fitter', head: true },
     { title: 'Setting', class: 'name' },
     { title: 'Default of' },
-    { title: 'CPU seconds an entry (low to high)', number: true },
+    { title: 'CPU ms an entry (low to high)', number: true },
     { title: `${metric} / best known (low to high)`, number: true },
     { title: `${metric}, about`, number: true },
     { title: 'On the front' },
@@ -25,12 +33,11 @@ function settingTable(pareto, metric) {
     columns,
     order.map((setting) => {
       const error = setting.errors[metric] ?? {};
-      const time = setting.cpu_seconds;
       return [
         setting.fitter,
         setting.name + (setting.preset ? ` (${setting.preset})` : ''),
         setting.default_of.join(', '),
-        rangeText(time.median, time.low, time.high),
+        timeText(setting.cpu_seconds),
         rangeText(error.ratio, error.low, error.high),
         numberText(error.value),
         error.front ? '\u25cf yes' : '',
@@ -50,7 +57,7 @@ function settingTable(pareto, metric) {
 function paretoLabel(pareto, metric) {
   const front = drawable(pareto, metric).filter((setting) => setting.errors[metric].front);
   return (
-    `Scatter of ${metric} over the best known against CPU seconds, ${paretoKind(pareto)}. On the front: ` +
+    `Scatter of ${metric} over the best known against CPU time, ${paretoKind(pareto)}. On the front: ` +
     `${front.map(settingText).join('; ') || 'none'}. The table below has all figures.`
   );
 }
@@ -72,9 +79,9 @@ function paretoSection(paretos) {
   const chart = addChart(
     made,
     'pareto-chart',
-    (colors, width) => {
+    (colors, width, height) => {
       legend.replaceChildren(paretoLegend(current, colors));
-      return paretoOption(colors, width, current, metric);
+      return paretoOption(colors, width, height, current, metric);
     },
     () => paretoLabel(current, metric),
   );
@@ -82,7 +89,10 @@ function paretoSection(paretos) {
   made.append(body);
   const show = () => {
     const about = current.metrics.find(({ name }) => name === metric);
-    meaning.textContent = `${withUnit(metric, about.unit)}: ${about.meaning} Over ${current.entries.length} entries.`;
+    const left = current.metrics.some(({ name }) => name === 'SW1rel') && !metricNames(current).includes('SW1rel');
+    meaning.textContent =
+      `${withUnit(metric, about.unit)}: ${about.meaning} Over ${current.entries.length} entries.` +
+      (left && metric === 'SW1' ? ' SW1rel has the same ratios.' : '');
     body.replaceChildren(
       ...(current.defaults.length > 0
         ? [
@@ -106,7 +116,7 @@ function paretoSection(paretos) {
       paretos.map((pareto, i) => [String(i), paretoKind(pareto)]),
       (value) => {
         current = paretos[Number(value)];
-        const names = current.metrics.map(({ name }) => name);
+        const names = metricNames(current);
         if (!names.includes(metric)) [metric] = names;
         metricSelect.select.replaceChildren(...names.map((name) => element('option', { value: name }, name)));
         metricSelect.select.value = metric;
@@ -119,7 +129,7 @@ function paretoSection(paretos) {
   const metricSelect = addSelect(
     controls,
     'Metric',
-    current.metrics.map(({ name }) => [name, name]),
+    metricNames(current).map((name) => [name, name]),
     (value) => {
       metric = value;
       show();

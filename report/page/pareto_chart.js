@@ -105,7 +105,77 @@ function frontLine(settings, metric, right, color) {
   };
 }
 
-function paretoOption(colors, width, pareto, metric) {
+// Places for texts beside points, all in pixels: for each of `anchors`, { x, y, width, height } with the middle of the
+// point and the size of its text, the nearest place within `area` that covers neither a point nor another text.
+function placeTexts(anchors, points, area) {
+  const pointRoom = 9;
+  const taken = points.map(([x, y]) => ({ x: x - pointRoom, y: y - pointRoom, width: 2 * pointRoom, height: 2 * pointRoom }));
+  const meet = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+  const clamp = (value, low, high) => Math.max(low, Math.min(high, value));
+  return anchors.map(({ x, y, width, height }) => {
+    let best = null;
+    for (let distance = 16; distance < 240 && !best; distance += 8) {
+      for (let k = 0; k < 16; k++) {
+        // up first, then to both sides
+        const angle = (Math.ceil(k / 2) * (k % 2 ? 1 : -1) * Math.PI) / 8;
+        const middle = [
+          x + (distance + width / 2) * Math.sin(angle),
+          y - (distance + height / 2) * Math.cos(angle),
+        ];
+        const box = {
+          x: clamp(middle[0] - width / 2, area.left, area.right - width),
+          y: clamp(middle[1] - height / 2, area.top, area.bottom - height),
+          width,
+          height,
+        };
+        if (taken.some((other) => meet(box, other))) continue;
+        best = box;
+        break;
+      }
+    }
+    best ??= { x: clamp(x - width / 2, area.left, area.right - width), y: area.top, width, height };
+    taken.push(best);
+    return best;
+  });
+}
+
+// What the defaults are called, with a line from each name to its point.
+function defaultLabels(places, colors) {
+  return {
+    type: 'custom',
+    silent: true,
+    z: 6,
+    tooltip: { show: false },
+    data: places.map(({ x, y }) => [x, y]),
+    renderItem: ({ dataIndex }) => {
+      const { x, y, box, text } = places[dataIndex];
+      const end = [Math.max(box.x, Math.min(box.x + box.width, x)), y < box.y ? box.y : Math.min(y, box.y + box.height)];
+      const length = Math.hypot(end[0] - x, end[1] - y);
+      const ring = 10; // where the line starts
+      const line = {
+        type: 'line',
+        shape: { x1: x + (ring * (end[0] - x)) / length, y1: y + (ring * (end[1] - y)) / length, x2: end[0], y2: end[1] },
+        style: { stroke: colors.mark, lineWidth: 1 },
+      };
+      const name = {
+        type: 'text',
+        x: box.x,
+        y: box.y,
+        style: { text, font: labelFont(colors), fill: colors.text, stroke: colors.paper, lineWidth: 3 },
+      };
+      return { type: 'group', children: length > ring ? [line, name] : [name] };
+    },
+  };
+}
+
+const labelFont = (colors) => `bold 11px ${colors.font}`;
+const measuring = document.createElement('canvas').getContext('2d');
+function textWidth(text, font) {
+  measuring.font = font;
+  return measuring.measureText(text).width;
+}
+
+function paretoOption(colors, width, height, pareto, metric) {
   const settings = drawable(pareto, metric);
   const times = settings.flatMap(({ cpu_seconds: t }) => [t.median, t.low, t.high]).filter((value) => value > 0);
   const ratios = settings
@@ -115,15 +185,26 @@ function paretoOption(colors, width, pareto, metric) {
   const [low, high] = settings.length > 0 ? rangeOf(ratios) : [1, 10];
   const narrow = width < 500;
   const place = (setting) => [Math.log10(setting.cpu_seconds.median), Math.log10(setting.errors[metric].ratio)];
-  // beside the point near the edges of the chart, where the text would be cut
-  const labelSide = (x) => {
-    const at = (x - Math.log10(left)) / Math.log10(right / left);
-    return at < 0.2 ? 'right' : at > 0.8 ? 'left' : 'top';
+  const grid = { left: narrow ? 58 : 66, right: 18, top: 14, bottom: 50 };
+  const area = { left: grid.left, right: width - grid.right, top: grid.top, bottom: height - grid.bottom };
+  const pixels = (setting) => {
+    const [x, y] = place(setting);
+    return [
+      area.left + ((x - Math.log10(left)) / Math.log10(right / left)) * (area.right - area.left),
+      area.bottom - ((y - Math.log10(low)) / Math.log10(high / low)) * (area.bottom - area.top),
+    ];
   };
   const defaults = settings.filter((setting) => setting.default_of.length > 0);
+  const texts = defaults.map((setting) => setting.default_of.join(', '));
+  const anchors = defaults.map((setting, i) => {
+    const [x, y] = pixels(setting);
+    return { x, y, width: textWidth(texts[i], labelFont(colors)), height: 12 };
+  });
+  const boxes = placeTexts(anchors, settings.map(pixels), area);
+  const labels = anchors.map(({ x, y }, i) => ({ x, y, box: boxes[i], text: texts[i] }));
   return {
-    grid: { left: narrow ? 58 : 66, right: 18, top: 14, bottom: 50 },
-    xAxis: logAxis(colors, 'CPU seconds for one entry (logarithmic)', 30, left, right, narrow ? 5 : 9),
+    grid,
+    xAxis: logAxis(colors, 'CPU ms for one entry (logarithmic)', 30, left, right, narrow ? 5 : 9, milliseconds),
     yAxis: logAxis(
       colors,
       narrow ? `${metric} / best known (log)` : `${metric} / best known of each entry (logarithmic)`,
@@ -160,7 +241,7 @@ function paretoOption(colors, width, pareto, metric) {
               } = setting;
               return tooltipOf(
                 settingText(setting),
-                `${rangeText(time.median, time.low, time.high)} s for one entry`,
+                `${timeText(time)} ms for one entry`,
                 `${metric}: ${rangeText(error.ratio, error.low, error.high)} \u00d7 the best known, about ${numberText(error.value)}`,
                 ...(setting.default_of.length > 0 ? [`default of ${setting.default_of.join(', ')}`] : []),
               );
@@ -176,21 +257,9 @@ function paretoOption(colors, width, pareto, metric) {
         symbolSize: 20,
         tooltip: { show: false },
         itemStyle: { opacity: 1, color: 'transparent', borderColor: colors.mark, borderWidth: 2 },
-        data: defaults.map((setting) => ({
-          value: place(setting),
-          label: { position: labelSide(place(setting)[0]) },
-        })),
-        label: {
-          show: true,
-          distance: 5,
-          color: colors.text,
-          fontSize: 11,
-          fontWeight: 'bold',
-          textBorderColor: colors.paper,
-          textBorderWidth: 3,
-          formatter: (item) => defaults[item.dataIndex].default_of.join(', '),
-        },
+        data: defaults.map(place),
       },
+      defaultLabels(labels, colors),
     ],
   };
 }

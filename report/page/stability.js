@@ -73,25 +73,33 @@ const plainColumns = () =>
     note: meaning,
     number: !textKeys.has(key),
     head: i === 0,
-    class: key === 'outcomes' || key === 'broken' ? 'name' : null,
   }));
 
-// The row's greatest figure in units of its limit, for limits that are named like a figure.
+// The row's greatest figure in units of its limit, for limits that are named like a figure. A row that passes although a
+// figure is above a limit is not held to that one.
 function nearness(row, limits) {
   return Math.max(
     0,
-    ...limits.filter(({ id, limit }) => isNumber(row[id]) && limit > 0).map(({ id, limit }) => row[id] / limit),
+    ...limits
+      .filter(({ id, limit }) => isNumber(row[id]) && limit > 0 && !(row.pass && row[id] > limit))
+      .map(({ id, limit }) => row[id] / limit),
   );
 }
 
-// For paper: what failed, and what came nearest to failing.
+// What failed, what came nearest to failing, and last the rows that are not judged, by the same figure.
+function worstFirst({ rows, limits }) {
+  const rank = (row) => (row.default ? Number(row.pass) : 2);
+  return rows
+    .map((row) => ({ row, near: nearness(row, limits) }))
+    .sort((a, b) => rank(a.row) - rank(b.row) || b.near - a.near)
+    .map(({ row }) => row);
+}
+
+// For paper: as many as one reads.
 function printedRows(stability) {
-  const judged = stability.rows.filter((row) => row.default);
+  const judged = worstFirst(stability).filter((row) => row.default);
   const failed = judged.filter((row) => !row.pass);
-  const worst = judged
-    .filter((row) => row.pass)
-    .sort((a, b) => nearness(b, stability.limits) - nearness(a, stability.limits))
-    .slice(0, 30);
+  const worst = judged.filter((row) => row.pass).slice(0, 30);
   const columns = plainColumns();
   // as many columns as fit on paper
   const kept = columns
@@ -116,11 +124,16 @@ function addRowBrowser(parent, stability) {
   const position = element('output', { class: 'position', 'aria-live': 'polite' });
   const previous = element('button', { type: 'button' }, 'Previous');
   const next = element('button', { type: 'button' }, 'Next');
-  const made = tableOf('All rows; * is the default fitter', plainColumns(), []);
+  const all = worstFirst(stability);
+  const made = tableOf(
+    'All rows; * is the default fitter, which alone is judged: its rows first, those nearest to a limit on top',
+    plainColumns(),
+    [],
+  );
   const headings = [...made.tHead.rows[0].cells];
 
   const show = () => {
-    const matching = stability.rows.filter(
+    const matching = all.filter(
       (row) =>
         (state.fitter === '' || row.fitter === state.fitter) &&
         (state.verdict === '' || (row.default && row.pass === (state.verdict === 'pass'))),

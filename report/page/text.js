@@ -36,6 +36,9 @@ function numberText(value, digits = 3) {
     .replace('e+', 'e');
 }
 
+// Of a time in seconds; three digits, written out.
+const milliseconds = (seconds) =>
+  seconds < 10 ? numberText(1000 * seconds) : Number((1000 * seconds).toPrecision(3)).toLocaleString('en-US');
 const countText = (value) => (isNumber(value) ? value.toLocaleString('en-US') : missing);
 const ratioText = (value, digits) => (isNumber(value) ? `${numberText(value, digits)} \u00d7` : missing);
 const unitText = (unit) => (unit && unit !== '1' ? unit : '');

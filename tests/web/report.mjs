@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from './packages.mjs';
 import {
+  captions,
   keyboard,
   layout,
   print,
@@ -108,6 +109,32 @@ const damages = [
     "addEventListener('change', () => 0)",
     selectors,
   ],
+  [
+    'a selector that names another metric than the chart',
+    'metricSelect.select.value = metric;\n  show();',
+    'show();',
+    captions,
+  ],
+  [
+    'a selector that names another map',
+    'viewSelect.select.value = kept.key;',
+    'viewSelect.select.selectedIndex = 1;',
+    captions,
+  ],
+  ['a metric to choose that shows nothing new', "!(same && name === 'SW1rel')", 'true', captions],
+  [
+    'the name of a default over a point',
+    'taken.push(best);',
+    'best = { ...best, x: x - width / 2, y: y - height / 2 };',
+    standing,
+  ],
+  [
+    'rows of odd heights',
+    'if (row.default && !row.pass) body',
+    "body.rows[1].style.height = '60px';\n      if (row.default && !row.pass) body",
+    rows,
+  ],
+  ['rows not by their nearness to a limit', 'const all = worstFirst(stability);', 'const all = stability.rows;', rows],
   ['columns that do not sort', 'const sign = descending ? -1 : 1;', 'const sign = 0;', rows],
   ['a filter without effect', 'row.fitter === state.fitter)', 'true)', rows],
   ['arrow keys without effect', 'readout.textContent = describe', 'void describe', keyboard],
@@ -122,11 +149,11 @@ async function goodPages(browser, work) {
     pages[name] = join(work, `${name}.html`);
     await writeFile(pages[name], await fillPage(sourceDir, chartsPath, make()));
   }
-  const all = [standing, layout, keyboard, tooltips, selectors, sliders, rows, schemes, print, standing, layout];
+  const all = [captions, standing, layout, keyboard, tooltips, selectors, captions, sliders, rows, schemes, print, standing, layout];
   for (const [name, path] of Object.entries(pages)) {
     const found = [
       ...(await inspect(browser, path, 1280, all)),
-      ...(await inspect(browser, path, 390, [standing, layout, tooltips, sliders, layout])),
+      ...(await inspect(browser, path, 390, [captions, standing, layout, tooltips, sliders, layout])),
     ];
     for (const text of found) fail(`${name}: ${text}`);
     console.log(`${name}: ${found.length === 0 ? 'good' : `${found.length} problems`}`);

@@ -76,6 +76,23 @@ export async function standing(page) {
           if (overlap > 1 && depth > 4) found.push(`${box.id}: "${text}" over "${leaves[k].style.text}"`);
         }
       });
+      // the names of the defaults cover no point
+      for (const { type, data } of instance.getOption().series) {
+        if (type !== 'scatter') continue;
+        const names = report.pareto.flatMap(({ settings }) => settings.map(({ default_of: of }) => of.join(', ')));
+        for (const at of data) {
+          const [x, y] = instance.convertToPixel({ xAxisIndex: 0, yAxisIndex: 0 }, at);
+          const over = rects.findIndex(
+            (rect, i) =>
+              names.includes(leaves[i].style.text) &&
+              x > rect.x - 5 &&
+              x < rect.x + rect.width + 5 &&
+              y > rect.y - 5 &&
+              y < rect.y + rect.height + 5,
+          );
+          if (over >= 0) found.push(`${box.id}: "${leaves[over].style.text}" over a point`);
+        }
+      }
       const canvas = box.querySelector('canvas');
       if (!canvas) {
         found.push(`${box.id}: nothing drawn`);
@@ -227,6 +244,55 @@ export async function selectors(page) {
   return found;
 }
 
+// What every selector says is what stands at the axis, in the caption or in the text of what it chooses.
+export async function captions(page) {
+  return page.evaluate(() => {
+    const found = [];
+    const report = JSON.parse(document.getElementById('report').textContent);
+    const axisName = (box, axis) => echarts.getInstanceByDom(box).getOption()[axis][0].name;
+    for (const select of document.querySelectorAll('main select')) {
+      const own = select.closest('section');
+      const label = select.labels[0].textContent;
+      const { value, text } = select.selectedOptions[0];
+      const chart = own.querySelector('.chart');
+      const spoken = chart?.getAttribute('aria-label') ?? '';
+      const part = own.id.replace(/^table-\d+-/, '');
+      const holds = {
+        'pareto, Table': () => spoken.includes(`, ${text}. `),
+        'pareto, Metric': () =>
+          axisName(chart, 'yAxis').startsWith(`${text} / `) &&
+          spoken.startsWith(`Scatter of ${text} over`) &&
+          own.querySelector('caption').textContent.endsWith(`; ${text}`),
+        'scores, Points': () => own.querySelector('caption').textContent.startsWith(`${value}, `),
+        'maps, Metric': () => own.querySelector('.chart-title').textContent.startsWith(text),
+        'maps, Show': () => own.querySelector('.chart-title').textContent.includes(`, ${text}`),
+        'smoothness, Axis': () => own.querySelector('.chart-title').textContent.startsWith(text),
+        'smoothness, Show': () => own.querySelector('.chart-title').textContent.includes(`, ${text}`),
+        'histograms, Metric': () =>
+          axisName(chart, 'xAxis').startsWith(text) && spoken.startsWith(`Histogram of ${text}`),
+        'histograms, Points': () => spoken.includes(`, ${value}: `),
+        'stability, Fitter': () => value === '',
+        'stability, Verdict': () => value === '',
+      }[`${part}, ${label}`];
+      const across = { Across: 'xAxis', Up: 'yAxis' }[label];
+      if (across ? !axisName(chart, across).startsWith(text) : !holds)
+        found.push(`${own.id}, ${label}: "${text}" is not ${across ? axisName(chart, across) : 'checked'}`);
+      else if (holds && !holds()) found.push(`${own.id}, ${label}: "${text}" is not what is shown: ${spoken}`);
+    }
+    const chosen = Object.fromEntries(
+      [...document.querySelectorAll('#pareto select')].map((e) => [e.labels[0].textContent, e]),
+    );
+    if (chosen.Metric) {
+      const { settings } = report.pareto[Number(chosen.Table?.value ?? 0)];
+      const ratios = (name) => settings.map(({ errors }) => errors[name]?.ratio).join();
+      const offered = [...chosen.Metric.options].some((option) => option.value === 'SW1rel');
+      if (offered === (ratios('SW1') === ratios('SW1rel')))
+        found.push(`SW1rel ${offered ? 'is offered, with the ratios of SW1' : 'is not offered'}`);
+    }
+    return found;
+  });
+}
+
 export async function sliders(page) {
   const found = [];
   for (const slider of await page.$$('input[type=range]')) {
@@ -305,6 +371,24 @@ export async function rows(page) {
     if (position !== shown) found.push(`${what}: "${position}", not "${shown}"`);
   };
   await expect(all.length, 'all rows');
+  // judged rows first, those nearest to a limit on top; all of one height
+  const near = (row) =>
+    Math.max(
+      0,
+      ...report.stability.limits
+        .filter(({ id, limit }) => limit > 0 && row[id] && !(row.pass && row[id] > limit))
+        .map(({ id, limit }) => row[id] / limit),
+    );
+  const judged = all.filter((row) => row.default);
+  const wanted = [false, true]
+    .flatMap((pass) => judged.filter((row) => row.pass === pass).sort((a, b) => near(b) - near(a)))
+    .slice(0, 20)
+    .map((row) => Number(row.sw1.toPrecision(3)));
+  if ((await column('SW1')).slice(0, 20).some((text, i) => i < wanted.length && Number(text) !== wanted[i]))
+    found.push('rows do not begin with those nearest to a limit');
+  const heights = await page.$$eval(`${browser} tbody tr`, (lines) => lines.map((line) => line.offsetHeight));
+  if (Math.max(...heights) > Math.min(...heights) + 1)
+    found.push(`rows of ${Math.min(...heights)} to ${Math.max(...heights)} pixels`);
   for (const [name, wanted] of [
     ['fail', false],
     ['pass', true],
