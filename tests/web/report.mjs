@@ -5,8 +5,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from './packages.mjs';
+import { captions } from './report_captions.mjs';
 import {
-  captions,
   keyboard,
   layout,
   print,
