@@ -77,7 +77,7 @@ export async function standing(page) {
         }
       });
       // the names of the defaults cover no point
-      for (const { type, data } of instance.getOption().series) {
+      for (const { type, data } of instance.getOption()?.series ?? []) {
         if (type !== 'scatter') continue;
         const names = report.pareto.flatMap(({ settings }) => settings.map(({ default_of: of }) => of.join(', ')));
         for (const at of data) {
