@@ -169,7 +169,7 @@ int stabilityCommand(const StabilityArguments& a) {
     if (judged) printLimits(result);
     fmt::print("\n");
     for (const StabilityFinding& f : result.findings) {
-      if (f.of > 0) fmt::print("{}:\n  {} of {}: {}\n", f.title, f.rows, f.of, f.text);
+      if (f.of > 0) fmt::print("{}:\n  {} of {} lobes: {}\n", f.title, f.rows, f.of, f.text);
     }
     if (judged) {
       fmt::print("\n{} of the rows of {} break a limit\n", result.failed, fitterName(kDefaultFitter));

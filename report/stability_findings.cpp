@@ -36,7 +36,7 @@ StabilityFinding notReached(const std::vector<StabilityRow>& rows, Fitter fitter
     ++out.rows;
     flat += failed->outcome == Outcome::kFlat ? 1 : 0;
   }
-  out.text = "lobes that are not reached";
+  out.text = "not reached";
   if (flat > 0) out.text += fmt::format("; for {} nothing at the start says where the lobe is", flat);
   return out;
 }
@@ -56,7 +56,7 @@ StabilityFinding ownDescents(const std::vector<StabilityRow>& rows, Fitter fitte
     for (std::size_t s = 0; s < kStartCount; ++s) lobes[s] += lost[s] ? 1 : 0;
     out.rows += std::find(lost.begin(), lost.end(), true) != lost.end() ? 1 : 0;
   }
-  out.text = "lobes at which one does not arrive, so that the usual start's is kept:";
+  out.text = "one does not arrive, and the usual start's is kept:";
   for (const Start start : {Start::kIdentity, Start::kNeighbour, Start::kNoOverlap})
     out.text += fmt::format("{} {} {}", start == Start::kIdentity ? "" : ",", startName(start),
                             lobes[static_cast<std::size_t>(start)]);
@@ -105,8 +105,8 @@ std::vector<StabilityFinding> stabilityFindings(const std::vector<StabilityRow>&
     }
     if (worse.of == 0) continue;
     worse.text = fmt::format(
-        "sharp lobes (alpha <= {}) whose condition is ten times that in the scaled parameters or more; "
-        "medians {:.1e} and {:.1e}",
+        "condition ten times that in the scaled parameters or more, of sharp lobes (alpha <= {}); medians "
+        "{:.1e} and {:.1e}",
         kSharpAlpha, median(raw), median(scaled));
     out.push_back(worse);
   }
