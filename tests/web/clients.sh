@@ -7,14 +7,7 @@ build_web=$3
 pictures=${4:-$build_web/pictures}
 web=$source_dir/tests/web
 
-chromium=
-for name in chromium chromium-browser google-chrome; do
-  if [ -z "$chromium" ]; then chromium=$(command -v "$name" || true); fi
-done
-if [ -z "$chromium" ]; then
-  echo "SKIPPED: chromium is not installed; the tests in real web engines need it"
-  exit 77
-fi
+. "$web/chromium.sh"
 bash "$web/install.sh" "$source_dir" "$build_web" || exit $?
 
 work=$(mktemp -d)

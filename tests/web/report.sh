@@ -10,14 +10,7 @@ charts=$5
 pictures=${6:-$build_web/pictures}
 web=$source_dir/tests/web
 
-chromium=
-for name in chromium chromium-browser google-chrome; do
-  if [ -z "$chromium" ]; then chromium=$(command -v "$name" || true); fi
-done
-if [ -z "$chromium" ]; then
-  echo "SKIPPED: chromium is not installed; the test of the report's page needs it"
-  exit 77
-fi
+. "$web/chromium.sh"
 bash "$web/install.sh" "$source_dir" "$build_web" || exit $?
 
 if [ ! -s "$charts" ]; then
