@@ -1,0 +1,20 @@
+// The double-precision twin of the GL shading check: the same look-up in the same table and the exact polygon
+// integral, in double arithmetic.
+#pragma once
+
+#include "ltc/table.h"
+#include "render/film.h"
+#include "render/scene.h"
+
+namespace ltcfit {
+
+/// Reflected radiance towards the camera. Each light adds its radiance times
+///   (f0 norm + (1 - f0) fresnel) Psi(lobe) + diffuse Psi(cosine),
+/// Psi the integral of the LTC that the table yields here, and of the clamped cosine, over the light, exactly
+/// clipped at the horizon (Heitz et al. 2016, eq. 10 and 11), 0 behind a one-sided light. `table` as the
+/// shader reads it (storedAs); an isotropic one reads alpha.x(). Where a look-up has no inverse the lobe adds
+/// nothing. A table without norm or fresnel throws std::invalid_argument. `threads` 0 = all cores; does not
+/// change the picture.
+Film renderTwin(const Scene& scene, const Table& table, int threads = 0);
+
+}  // namespace ltcfit
