@@ -1,5 +1,6 @@
 #include "render/scene.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
