@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -61,12 +63,19 @@ Camera randomCamera(Random& random, std::size_t size) {
   return camera;
 }
 
-}  // namespace
+// Part of the picture that shows a surface, of a coarse grid of rays.
+double surfaceShare(Scene scene) {
+  scene.camera.width = 12;
+  scene.camera.height = 12;
+  int hits = 0;
+  for (std::size_t row = 0; row < 12; ++row)
+    for (std::size_t column = 0; column < 12; ++column)
+      if (viewPixel(scene, column, row).kind == PixelKind::kSurface) ++hits;
+  return hits / 144.0;
+}
 
-Scene randomScene(std::uint64_t seed, std::uint64_t index, bool anisotropic, std::size_t size) {
-  Random random(mixSeed(mixSeed(seed, anisotropic ? 2 : 1), index));
+Scene drawScene(Random random, bool anisotropic, std::size_t size) {
   Scene scene;
-  scene.name = (anisotropic ? "random-aniso-" : "random-iso-") + std::to_string(index);
   Surface ground;
   ground.halfSize = Eigen::Vector2d(3, 3);
   ground.material = randomMaterial(random, anisotropic);
@@ -78,6 +87,18 @@ Scene randomScene(std::uint64_t seed, std::uint64_t index, bool anisotropic, std
   scene.surfaces = {ground, sphere};
   scene.lights = {randomLight(random)};
   scene.camera = randomCamera(random, size);
+  return scene;
+}
+
+}  // namespace
+
+Scene randomScene(std::uint64_t seed, std::uint64_t index, bool anisotropic, std::size_t size) {
+  const std::uint64_t own = mixSeed(mixSeed(seed, anisotropic ? 2 : 1), index);
+  Scene scene;
+  // again where the light stands before the camera
+  for (std::uint64_t attempt = 0; scene.surfaces.empty() || surfaceShare(scene) < 0.2; ++attempt)
+    scene = drawScene(Random(mixSeed(own, attempt)), anisotropic, size);
+  scene.name = fmt::format("random-{}-{}", anisotropic ? "aniso" : "iso", index);
   scene.title = "a random light, view and material";
   return scene;
 }
