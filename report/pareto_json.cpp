@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "report/figure.h"
+#include "export/figure.h"
 #include "report/pareto_text.h"
 
 namespace ltcfit {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <variant>
 
-#include "report/figure.h"
+#include "export/figure.h"
 
 namespace ltcfit {
 namespace {

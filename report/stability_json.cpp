@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "report/figure.h"
+#include "export/figure.h"
 
 namespace ltcfit {
 namespace {

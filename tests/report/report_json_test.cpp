@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
+#include "export/figure.h"
 #include "fit/isotropic_table_fit.h"
 #include "fit/target_lobe.h"
 #include "ggx/moments.h"
-#include "report/figure.h"
 #include "report/verdicts.h"
 
 namespace ltcfit {

@@ -1,4 +1,4 @@
-#include "report/figure.h"
+#include "export/figure.h"
 
 #include <fmt/format.h>
 
