@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "export/png.h"
 #include "ltc/table.h"
-#include "report/png.h"
 
 namespace ltcfit {
 

@@ -1,4 +1,4 @@
-#include "report/png.h"
+#include "export/png.h"
 
 #include <png.h>
 

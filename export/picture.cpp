@@ -1,0 +1,179 @@
+#include "export/picture.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csetjmp>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "export/atomic_file.h"
+#include "export/exr.h"
+
+namespace ltcfit {
+namespace {
+
+constexpr std::string_view kPngMagic("\x89PNG\r\n\x1A\n", 8);
+// Pixels that a byte of the file can stand for: 1032 bytes by deflate, of 8 pixels of one bit.
+constexpr std::uint64_t kMaxPixelsPerByte = 1032 * 8;
+constexpr std::uint64_t kMaxPictureFile = std::uint64_t{1} << 30;
+
+void checkSize(std::size_t width, std::size_t height, const std::string& name) {
+  if (width == 0 || height == 0 || width > kMaxPictureSide || height > kMaxPictureSide) {
+    throw InputError(
+        fmt::format("{}: a picture of {} x {} pixels; need 1 to {}", name, width, height, kMaxPictureSide));
+  }
+}
+
+const std::vector<float>& channelOf(const ExrFile& file, const char* channel, const std::string& name) {
+  const auto at = std::find(file.names.begin(), file.names.end(), channel);
+  if (at == file.names.end()) throw InputError(name + ": EXR: need channels R, G and B, or Y");
+  return file.channels[static_cast<std::size_t>(at - file.names.begin())];
+}
+
+LinearPicture pictureOfExr(std::string_view bytes, const std::string& name) {
+  const ExrFile file = parseExr(bytes, name);
+  checkSize(file.width, file.height, name);
+  const bool grey = std::find(file.names.begin(), file.names.end(), "R") == file.names.end();
+  const std::array<const char*, 3> channels =
+      grey ? std::array<const char*, 3>{"Y", "Y", "Y"} : std::array<const char*, 3>{"R", "G", "B"};
+  LinearPicture picture{file.width, file.height, {}};
+  picture.texels.resize(file.width * file.height);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::vector<float>& values = channelOf(file, channels[c], name);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!std::isfinite(values[i])) {
+        throw InputError(fmt::format("{}: EXR: channel {}, row {}, column {} is not finite", name,
+                                     channels[c], i / file.width, i % file.width));
+      }
+      picture.texels[i][static_cast<Eigen::Index>(c)] = static_cast<double>(values[i]);
+    }
+  }
+  return picture;
+}
+
+struct PngInput {
+  std::string_view rest;
+  std::array<char, 256> message;
+};
+
+// Errors of libpng leave it by longjmp, which destructors do not survive: the functions that set the jump
+// have no object with one.
+struct PngReader {
+  explicit PngReader(PngInput& input)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, onError, [](png_structp, const char*) {})),
+        info(png != nullptr ? png_create_info_struct(png) : nullptr) {
+    if (info == nullptr) throw std::bad_alloc();
+    png_set_read_fn(png, &input, onRead);
+  }
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  [[noreturn]] static void onError(png_structp png, const char* what) {
+    PngInput& input = *static_cast<PngInput*>(png_get_error_ptr(png));
+    std::snprintf(input.message.data(), input.message.size(), "%s", what);
+    png_longjmp(png, 1);
+  }
+  static void onRead(png_structp png, png_bytep out, std::size_t size) {
+    PngInput& input = *static_cast<PngInput*>(png_get_io_ptr(png));
+    if (size > input.rest.size()) png_error(png, "cut off");
+    std::memcpy(out, input.rest.data(), size);
+    input.rest.remove_prefix(size);
+  }
+
+  png_structp png;
+  png_infop info;
+};
+
+bool readHeader(png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_read_info(png, info);
+  return true;
+}
+
+// As RGBA of 8 or 16 bits, whatever the file has.
+bool readRows(png_structp png, png_infop info, png_bytepp rows, std::size_t stride) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_expand(png);
+  png_set_gray_to_rgb(png);
+  png_set_filler(png, 0xFFFF, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  if (png_get_rowbytes(png, info) != stride) png_error(png, "rows of an unexpected length");
+  png_read_image(png, rows);
+  png_read_end(png, nullptr);
+  return true;
+}
+
+// The linear value of each of `count` steps. libpng's own conversion of 16 bits takes a power of 2.2 for
+// sRGB and is off by 2 %.
+std::vector<double> linearValues(const PngReader& reader, std::size_t count) {
+  constexpr double kSrgb = 0.45455;  // what writers of sRGB put into gAMA
+  double gamma = kSrgb;
+  int intent = 0;
+  if (png_get_sRGB(reader.png, reader.info, &intent) == 0) png_get_gAMA(reader.png, reader.info, &gamma);
+  const bool srgb = !(gamma > 0.0) || std::abs(gamma - kSrgb) < 1e-3;
+  std::vector<double> linear(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = static_cast<double>(i) / static_cast<double>(count - 1);
+    linear[i] = srgb ? linearFromSrgb(value) : std::pow(value, 1.0 / gamma);
+  }
+  return linear;
+}
+
+}  // namespace
+
+double linearFromSrgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+bool isPng(std::string_view bytes) {
+  return bytes.starts_with(kPngMagic);
+}
+
+LinearPicture parsePng(std::string_view bytes, const std::string& name) {
+  if (!isPng(bytes)) throw InputError(name + ": not a PNG file");
+  PngInput input{bytes, {}};
+  PngReader reader(input);
+  const auto damaged = [&] { throw InputError(fmt::format("{}: PNG: {}", name, input.message.data())); };
+  if (!readHeader(reader.png, reader.info)) damaged();
+  const std::size_t width = png_get_image_width(reader.png, reader.info);
+  const std::size_t height = png_get_image_height(reader.png, reader.info);
+  checkSize(width, height, name);
+  if (width * height / kMaxPixelsPerByte > bytes.size())
+    throw InputError(name + ": PNG: more pixels than its length can hold");
+  const bool deep = png_get_bit_depth(reader.png, reader.info) == 16;
+  const std::size_t stride = 4 * width * (deep ? 2 : 1);
+  std::vector<png_byte> values(height * stride);
+  std::vector<png_bytep> rows(height);
+  for (std::size_t r = 0; r < height; ++r) rows[r] = &values[r * stride];
+  if (!readRows(reader.png, reader.info, rows.data(), stride)) damaged();
+
+  const std::vector<double> linear = linearValues(reader, deep ? 65536 : 256);
+  LinearPicture picture{width, height, {}};
+  picture.texels.reserve(width * height);
+  const auto value = [&](std::size_t i) {
+    return deep ? std::size_t{values[2 * i]} << 8 | values[2 * i + 1] : std::size_t{values[i]};
+  };
+  for (std::size_t i = 0; i < width * height; ++i) {
+    const double alpha = static_cast<double>(value(4 * i + 3)) / static_cast<double>(linear.size() - 1);
+    picture.texels.push_back(
+        alpha * Eigen::Vector3d(linear[value(4 * i)], linear[value(4 * i + 1)], linear[value(4 * i + 2)]));
+  }
+  return picture;
+}
+
+LinearPicture readPicture(const std::string& path) {
+  const std::string bytes = readFile(path, kMaxPictureFile);
+  if (isPng(bytes)) return parsePng(bytes, path);
+  if (isExr(bytes)) return pictureOfExr(bytes, path);
+  throw InputError(path + ": neither a PNG nor an EXR picture");
+}
+
+}  // namespace ltcfit
