@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "export/atomic_file.h"
+#include "export/texture_files.h"
 
 namespace ltcfit {
 namespace {
@@ -51,7 +52,7 @@ void checkIs2017(const Image& first, const Image* second, const std::string& nam
 
 }  // namespace
 
-Table tableFrom2017(const Image& first, const Image* second, const std::string& name) {
+PackedTable packedFrom2017(const Image& first, const Image* second, const std::string& name) {
   const auto size = [](const Image& image) {
     return fmt::format("{} x {} x {}, {} components, {} layers", image.width, image.height, image.depth,
                        image.components, image.layers);
@@ -59,8 +60,9 @@ Table tableFrom2017(const Image& first, const Image* second, const std::string& 
   if (first.components != 4 || first.depth != 1 || first.layers != 1 || first.width < 2 || first.height < 2)
     throw InputError(name + ": " + size(first) +
                      ": not the layout of 2017, which is a 2D texture of 4 components");
-  if (second != nullptr && (second->width != first.width || second->height != first.height ||
-                            second->texels() != first.texels() || second->components < 2)) {
+  if (second != nullptr &&
+      (second->width != first.width || second->height != first.height || second->texels() != first.texels() ||
+       second->components < 2 || second->components > 4)) {
     throw InputError(name + ": the second texture, " + size(*second) + ", does not go with the first, " +
                      size(first));
   }
@@ -71,32 +73,33 @@ Table tableFrom2017(const Image& first, const Image* second, const std::string& 
     throw InputError(name + ": this is the second texture (norm, Fresnel); give the first one");
 
   checkIs2017(first, second, name);
-  TableInfo info;
-  info.stores = MatrixStorage::kMinv;
-  info.normalization = MatrixNormalization::kMiddleElement;
-  info.channels = {"m00", "m20", "m02", "m22", "m11"};
-  if (second != nullptr) info.channels.insert(info.channels.end(), {"norm", "fresnel"});
+  PackedTable packed;
+  packed.packing = packing2017();
+  packed.precision = first.precision;
+  packed.images = {first};
+  packed.packing.textures.resize(second != nullptr ? 2 : 1);
+  if (second != nullptr) {
+    packed.packing.textures[1].components.resize(second->components);
+    packed.images.push_back(*second);
+  }
+  TableInfo& info = packed.info;
+  info.stores = packed.packing.stores;
+  info.normalization = normalizationOf(packed.packing.divisor);
   info.alphaFloor = kFloor2017;
   info.provenance.tool = "an undescribed table in the layout of 2017, taken for its axes";
   info.provenance.options = {{"family", std::string("3")}};  // what its authors' code fits
-  std::vector<float> data;
-  data.reserve(texels * info.channels.size());
-  for (std::size_t i = 0; i < texels; ++i) {
-    for (std::size_t c = 0; c < 4; ++c) data.push_back(first.values[i * 4 + c]);
-    data.push_back(1.0f);
-    if (second != nullptr) {
-      const float* const v = second->values.data() + i * second->components;
-      data.insert(data.end(), {v[0], v[1]});
-    }
-  }
   try {
     info.axes.push_back(withLastValue(
         makeAxis("theta", "rad", AxisMap::kSqrtOneMinusCos, first.height, 0.0, kHalfPi), kTheta2017));
     info.axes.push_back(makeAxis("alpha", "1", AxisMap::kSqrt, first.width, 0.0, 1.0, kFloor2017));
-    return Table(std::move(info), std::move(data));
   } catch (const std::invalid_argument& error) {
     throw InputError(name + ": " + error.what());
   }
+  return packed;
+}
+
+Table tableFrom2017(const Image& first, const Image* second, const std::string& name) {
+  return tableFromPacked(packedFrom2017(first, second, name), name);
 }
 
 Table tableFrom2022(const FloatArray& array, const std::string& name) {

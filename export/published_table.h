@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "export/image.h"
 #include "export/npy.h"
+#include "export/packing.h"
 #include "ltc/table.h"
 
 namespace ltcfit {
@@ -13,6 +13,7 @@ namespace ltcfit {
 /// `second`, if any, holds norm and Fresnel in its first two components. x = sqrt(alpha), alpha = max(x^2,
 /// 1e-5); y = sqrt(1 - cos theta), theta <= 1.57: the parameters that its authors fitted. InputError with
 /// `name` for other sizes.
+PackedTable packedFrom2017(const Image& first, const Image* second, const std::string& name);
 Table tableFrom2017(const Image& first, const Image* second, const std::string& name);
 
 /// The table of 2022: [alpha][lambda][theta][phi][3][3] of M, uniform axes, alpha_x and alpha_y >= 1e-4,

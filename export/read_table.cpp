@@ -120,38 +120,43 @@ Image readImage(const std::string& bytes, const std::string& path) {
 }
 
 // The layout of 2017, whose second texture is the second layer or another file.
-Table tableWithoutMetadata(const Image& image, const std::string& path) {
+PackedTable packedWithoutMetadata(const Image& image, const std::string& path) {
   if (image.layers == 2) {
     const std::vector<Image> layers = layersOf(image);
-    return tableFrom2017(layers[0], &layers[1], path);
+    return packedFrom2017(layers[0], &layers[1], path);
   }
   const std::string second = secondTexturePath(path);
-  if (second.empty()) return tableFrom2017(image, nullptr, path);
+  if (second.empty()) return packedFrom2017(image, nullptr, path);
   const Image secondImage = readImage(readFile(second, kMaxTable), second);
-  return tableFrom2017(image, &secondImage, path);
+  return packedFrom2017(image, &secondImage, path);
 }
 
-Table readTexture(const std::string& bytes, const std::string& path) {
-  std::optional<PackedTable> packed;
+TableFile fileOf(PackedTable packed, const std::string& format, const std::string& path) {
+  Table table = tableFromPacked(packed, path);
+  return {std::move(table), format, std::move(packed)};
+}
+
+TableFile readTexture(const std::string& bytes, const std::string& path) {
   if (isKtx2(bytes)) {
     const Ktx2File file = parseKtx2(bytes, path);
     for (const auto& [key, value] : file.keyValues) {
-      if (key == kMetadataKey) return tableFromStack(packedFromMetadata(value, path), file.image, path);
+      if (key == kMetadataKey)
+        return fileOf(packedFromStack(packedFromMetadata(value, path), file.image, path), "KTX2", path);
     }
-    return tableWithoutMetadata(file.image, path);
+    return fileOf(packedWithoutMetadata(file.image, path), "KTX2", path);
   }
-  packed = readSidecar(path, bytes);
+  std::optional<PackedTable> packed = readSidecar(path, bytes);
   if (isNpy(bytes)) {
     const FloatArray array = parseNpy(bytes, path);
-    if (packed) return tableFromNumbers(std::move(*packed), array.values, path);
-    if (array.shape.size() == 6) return tableFrom2022(array, path);
-    return tableWithoutMetadata(imageOfArray(array, path), path);
+    if (packed) return fileOf(packedFromNumbers(std::move(*packed), array.values, path), ".npy", path);
+    if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt};
+    return fileOf(packedWithoutMetadata(imageOfArray(array, path), path), ".npy", path);
   }
   const Image image = parseDds(bytes, path);
-  if (!packed) return tableWithoutMetadata(image, path);
-  if (packed->files.size() == 1) return tableFromStack(std::move(*packed), image, path);
-  std::vector<Image> images = readFiles(*packed, bytes, path);
-  return tableFromImages(std::move(*packed), std::move(images), path);
+  if (!packed) return fileOf(packedWithoutMetadata(image, path), "DDS", path);
+  if (packed->files.size() == 1) return fileOf(packedFromStack(std::move(*packed), image, path), "DDS", path);
+  packed->images = readFiles(*packed, bytes, path);
+  return fileOf(std::move(*packed), "DDS", path);
 }
 
 // What a binary without a header of its own holds, texture after texture.
@@ -194,24 +199,29 @@ std::vector<std::string> filesOfTable(const std::string& path) {
 }
 
 Table readTable(const std::string& path) {
+  return readTableFile(path).table;
+}
+
+TableFile readTableFile(const std::string& path) {
   const std::string bytes = readFile(path, kMaxTable);
   if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path);
-  if (isExr(bytes)) return tableFromExr(bytes, path);
+  if (isExr(bytes)) return fileOf(packedFromExr(bytes, path), "EXR", path);
   // a byte order mark, as editors of one vendor leave it, is not part of the text
   const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   if (start == std::string::npos) throw InputError(path + ": is empty");
   if (bytes[start] == '{') {
     if (isTextureMetadata(bytes))
       throw InputError(path + ": describes a texture file; give that one (the name without .json)");
-    return tableFromJson(bytes, path);
+    return {tableFromJson(bytes, path), "JSON", std::nullopt};
   }
   if (looksLikeText(bytes)) {
-    if (std::optional<Table> table = tableFromSource(bytes, path)) return std::move(*table);
+    if (std::optional<Table> table = tableFromSource(bytes, path))
+      return {std::move(*table), "source code", std::nullopt};
   } else if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
     const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
-    return tableFromNumbers(std::move(*packed), numbers, path);
+    return fileOf(packedFromNumbers(std::move(*packed), numbers, path), "binary", path);
   } else if (std::optional<Table> table = tableFromEngineBinary(bytes, path)) {
-    return std::move(*table);
+    return {std::move(*table), "binary", std::nullopt};
   }
   throw InputError(path +
                    ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "

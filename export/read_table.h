@@ -1,9 +1,11 @@
 // One door for every table that ltcfit can read.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "export/packing.h"
 #include "ltc/table.h"
 
 namespace ltcfit {
@@ -21,6 +23,14 @@ namespace ltcfit {
 ///   last); the published 2022 table as .npy.
 /// Throws InputError: not there, not readable, not one of these, or damaged.
 Table readTable(const std::string& path);
+
+/// The same with what the file holds, for who hands its textures on.
+struct TableFile {
+  Table table;
+  std::string format;                   ///< "KTX2", "DDS", "EXR", ".npy", "JSON", "binary", "source code"
+  std::optional<PackedTable> textures;  ///< as they lie in the file; nothing where it holds a table or code
+};
+TableFile readTableFile(const std::string& path);
 
 /// The files that reading this one may take: itself, its description, the second texture. What must not be
 /// written over while it is read.

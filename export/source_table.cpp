@@ -107,7 +107,7 @@ Table describedTable(PackedTable packed, const std::vector<TextArray>& arrays, c
     // matrices and amplitudes; whatever else a file declares is shorter
     if (array.values.size() >= 8) numbers.insert(numbers.end(), array.values.begin(), array.values.end());
   }
-  return tableFromNumbers(std::move(packed), numbers, name);
+  return tableFromPacked(packedFromNumbers(std::move(packed), numbers, name), name);
 }
 
 }  // namespace

@@ -189,25 +189,24 @@ std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string&
   return toRawFiles(packed, std::move(bytes), name, kRawContainer);
 }
 
-Table tableFromImages(PackedTable packed, std::vector<Image> images, const std::string& name) {
+Table tableFromPacked(const PackedTable& packed, const std::string& name) {
   try {
-    packed.images = std::move(images);
     return unpack(packed);
   } catch (const std::invalid_argument& error) {
     throw InputError(name + ": " + error.what());
   }
 }
 
-Table tableFromStack(PackedTable packed, const Image& stack, const std::string& name) {
+PackedTable packedFromStack(PackedTable packed, const Image& stack, const std::string& name) {
   try {
-    std::vector<Image> images = unstackedImages(stack, packed);
-    return tableFromImages(std::move(packed), std::move(images), name);
+    packed.images = unstackedImages(stack, packed);
+    return packed;
   } catch (const std::invalid_argument& error) {
     throw InputError(name + ": " + error.what());
   }
 }
 
-Table tableFromExr(std::string_view bytes, const std::string& name) {
+PackedTable packedFromExr(std::string_view bytes, const std::string& name) {
   const ExrFile file = parseExr(bytes, name);
   const auto metadata = std::find_if(file.attributes.begin(), file.attributes.end(),
                                      [](const auto& a) { return a.first == kMetadataKey; });
@@ -241,10 +240,12 @@ Table tableFromExr(std::string_view bytes, const std::string& name) {
   } catch (const std::invalid_argument& error) {
     throw InputError(name + ": " + error.what());
   }
-  return tableFromImages(std::move(packed), std::move(images), name);
+  packed.images = std::move(images);
+  return packed;
 }
 
-Table tableFromNumbers(PackedTable packed, const std::vector<float>& numbers, const std::string& name) {
+PackedTable packedFromNumbers(PackedTable packed, const std::vector<float>& numbers,
+                              const std::string& name) {
   std::vector<Image> images;
   std::size_t at = 0;
   try {
@@ -261,7 +262,8 @@ Table tableFromNumbers(PackedTable packed, const std::vector<float>& numbers, co
   } catch (const std::invalid_argument& error) {
     throw InputError(name + ": " + error.what());
   }
-  return tableFromImages(std::move(packed), std::move(images), name);
+  packed.images = std::move(images);
+  return packed;
 }
 
 }  // namespace ltcfit

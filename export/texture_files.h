@@ -49,13 +49,15 @@ std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string&
 std::vector<ExportFile> toRawFiles(const PackedTable& packed, std::string bytes, const std::string& name,
                                    const std::string& container);
 
-/// The inverses, `packed` being what packedFromMetadata said. InputError with `name` where the file does not
-/// fit it.
-Table tableFromImages(PackedTable packed, std::vector<Image> images, const std::string& name);
-Table tableFromStack(PackedTable packed, const Image& stack, const std::string& name);
-Table tableFromExr(std::string_view bytes, const std::string& name);
+/// The inverses: `packed`, which is what packedFromMetadata said, with its images. InputError with `name`
+/// where the file does not fit it.
+PackedTable packedFromStack(PackedTable packed, const Image& stack, const std::string& name);
+PackedTable packedFromExr(std::string_view bytes, const std::string& name);
 /// Numbers of .npy or raw files.
-Table tableFromNumbers(PackedTable packed, const std::vector<float>& numbers, const std::string& name);
+PackedTable packedFromNumbers(PackedTable packed, const std::vector<float>& numbers, const std::string& name);
+
+/// unpack for what came from a file: InputError with `name`.
+Table tableFromPacked(const PackedTable& packed, const std::string& name);
 
 /// The key and attribute that holds the metadata.
 inline constexpr const char* kMetadataKey = "ltcfit";

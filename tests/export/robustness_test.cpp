@@ -131,7 +131,8 @@ Table anisotropicTable() {
 std::optional<Table> readKtx2(std::string_view bytes) {
   const Ktx2File file = parseKtx2(bytes, "T");
   for (const auto& [key, value] : file.keyValues)
-    if (key == kMetadataKey) return tableFromStack(packedFromMetadata(value, "T"), file.image, "T");
+    if (key == kMetadataKey)
+      return tableFromPacked(packedFromStack(packedFromMetadata(value, "T"), file.image, "T"), "T");
   return std::nullopt;
 }
 
@@ -146,22 +147,24 @@ Sample exported(const Table& table, const std::string& format, const FormatOptio
     sample.ratio = 256;
     sample.exact = false;
   } else if (format == "exr") {
-    sample.read = [](std::string_view bytes) { return tableFromExr(bytes, "T"); };
+    sample.read = [](std::string_view bytes) { return tableFromPacked(packedFromExr(bytes, "T"), "T"); };
     sample.ratio = 1032;
     sample.exact = false;
   } else if (format == "npy") {
     sample.read = [metadata](std::string_view bytes) {
-      return tableFromNumbers(packedFromMetadata(metadata, "T"), parseNpy(bytes, "T").values, "T");
+      return tableFromPacked(
+          packedFromNumbers(packedFromMetadata(metadata, "T"), parseNpy(bytes, "T").values, "T"), "T");
     };
   } else if (format == "dds") {
     sample.read = [metadata](std::string_view bytes) {
-      return tableFromStack(packedFromMetadata(metadata, "T"), parseDds(bytes, "T"), "T");
+      return tableFromPacked(packedFromStack(packedFromMetadata(metadata, "T"), parseDds(bytes, "T"), "T"),
+                             "T");
     };
   } else if (format == "bin") {
     sample.read = [metadata](std::string_view bytes) {
       PackedTable packed = packedFromMetadata(metadata, "T");
       const std::vector<float> numbers = readValues(bytes, packed.precision);
-      return tableFromNumbers(std::move(packed), numbers, "T");
+      return tableFromPacked(packedFromNumbers(std::move(packed), numbers, "T"), "T");
     };
   } else if (format == "json") {
     sample.read = [](std::string_view bytes) { return tableFromJson(bytes, "T"); };
@@ -224,8 +227,9 @@ std::vector<Sample> samples() {
     const std::string numbers = raw.files[0].bytes;
     all.push_back({"metadata" + kind, raw.files[1].bytes,
                    [numbers](std::string_view bytes) {
-                     return tableFromNumbers(packedFromMetadata(bytes, "T"),
-                                             readValues(numbers, Precision::kFloat), "T");
+                     return tableFromPacked(packedFromNumbers(packedFromMetadata(bytes, "T"),
+                                                              readValues(numbers, Precision::kFloat), "T"),
+                                            "T");
                    },
                    32, true});
   }
@@ -235,8 +239,9 @@ std::vector<Sample> samples() {
   const ExportResult dds = exportTable(iso, *findFormat("dds"), legacy, "t.dds");
   all.push_back({"dds legacy iso", dds.files[0].bytes,
                  [dds](std::string_view bytes) {
-                   return tableFromImages(packedFromMetadata(dds.files[2].bytes, "T"),
-                                          {parseDds(bytes, "T"), parseDds(dds.files[1].bytes, "T")}, "T");
+                   PackedTable packed = packedFromMetadata(dds.files[2].bytes, "T");
+                   packed.images = {parseDds(bytes, "T"), parseDds(dds.files[1].bytes, "T")};
+                   return tableFromPacked(packed, "T");
                  },
                  32, true});
   all.push_back(exported(iso, "js", {}, "module"));
@@ -428,7 +433,7 @@ TEST(RobustnessOf, ExrComponentsBeyondItsChannels) {
       value.insert(at, R"({"name": "amplitude", "components": ["m00", "m00", "m00", "m00"]},)");
   }
   try {
-    tableFromExr(channelsToExr(file), "T");
+    tableFromPacked(packedFromExr(channelsToExr(file), "T"), "T");
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("fewer channels"), std::string::npos) << error.what();

@@ -209,8 +209,8 @@ TEST(Metadata, OfAnotherFileIsRefused) {
           with("\"container\"", "\"files\": [{\"name\": \"../x\", \"checksum\": \"0\"}], \"container\""),
           "m"),
       InputError);
-  EXPECT_THROW(tableFromNumbers(packedFromMetadata(good, "m"), std::vector<float>(95), "m"), InputError);
-  EXPECT_THROW(tableFromNumbers(packedFromMetadata(good, "m"), std::vector<float>(97), "m"), InputError);
+  EXPECT_THROW(packedFromNumbers(packedFromMetadata(good, "m"), std::vector<float>(95), "m"), InputError);
+  EXPECT_THROW(packedFromNumbers(packedFromMetadata(good, "m"), std::vector<float>(97), "m"), InputError);
 }
 
 }  // namespace

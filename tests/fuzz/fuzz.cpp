@@ -53,7 +53,8 @@ void read(std::string_view bytes) {
     const Ktx2File file = parseKtx2(bytes, "T");
     check(file.image);
     for (const auto& [key, value] : file.keyValues)
-      if (key == kMetadataKey) tableFromStack(packedFromMetadata(value, "T"), file.image, "T");
+      if (key == kMetadataKey)
+        tableFromPacked(packedFromStack(packedFromMetadata(value, "T"), file.image, "T"), "T");
   });
 #elif defined(LTCFIT_FUZZ_EXR)
   attempt([&] {
@@ -62,12 +63,15 @@ void read(std::string_view bytes) {
     for (const auto& channel : file.channels)
       if (channel.size() != file.width * file.height) std::abort();
   });
-  attempt([&] { tableFromExr(bytes, "T"); });
+  attempt([&] { tableFromPacked(packedFromExr(bytes, "T"), "T"); });
 #else
   attempt([&] { tableFromJson(bytes, "T"); });
   attempt([&] { tableFromSource(bytes, "T"); });
   // as many numbers as a 4 x 4 table has
-  attempt([&] { tableFromNumbers(packedFromMetadata(bytes, "T"), std::vector<float>(128, 0.5f), "T"); });
+  attempt([&] {
+    tableFromPacked(packedFromNumbers(packedFromMetadata(bytes, "T"), std::vector<float>(128, 0.5f), "T"),
+                    "T");
+  });
 #endif
 }
 
