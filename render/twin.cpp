@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -23,8 +24,19 @@ Eigen::Matrix3d towardsView(const Eigen::Vector3d& wo) {
   return turn;
 }
 
-double emitted(double integral, const PolygonLight& light) {
-  return light.twoSided ? std::abs(integral) : std::max(0.0, integral);
+// Turns the outline of a two-sided light seen from behind; false for a one-sided one.
+bool turnToFront(const PolygonLight& light, std::vector<Eigen::Vector3d>& vertices) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+    normal += (vertices[i] - vertices[0]).cross(vertices[i + 1] - vertices[0]);
+  if (normal.dot(vertices[0]) > 0.0) return true;
+  std::reverse(vertices.begin(), vertices.end());
+  return light.twoSided;
+}
+
+double lobeIntegral(const Ltc& lobe, std::span<const Eigen::Vector3d> vertices, HorizonClipping clipping) {
+  return clipping == HorizonClipping::kExact ? std::max(0.0, ltcPolygonIntegral(lobe, vertices))
+                                             : ltcPolygonIntegralByProxySphere(lobe, vertices);
 }
 
 TableEntry fetchAt(const Table& table, const SurfacePoint& point) {
@@ -36,7 +48,8 @@ TableEntry fetchAt(const Table& table, const SurfacePoint& point) {
   return table.fetch(p);
 }
 
-Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, const Table& table) {
+Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, const Table& table,
+                             HorizonClipping clipping) {
   const TableEntry entry = fetchAt(table, point);
   const bool usable = entry.invertible;  // else black, as the shader
   const Material& material = point.surface->material;
@@ -47,10 +60,11 @@ Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, cons
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const PolygonLight& light : scene.lights) {
     std::vector<Eigen::Vector3d> vertices = lightFrom(point, light);
+    if (!turnToFront(light, vertices)) continue;
     double value = 0.0;
-    if (material.diffuse > 0.0) value += material.diffuse * emitted(polygonIrradiance(vertices), light);
+    if (material.diffuse > 0.0) value += material.diffuse * std::max(0.0, polygonIrradiance(vertices));
     for (Eigen::Vector3d& v : vertices) v = turn * v;
-    if (usable) value += reflectance * emitted(ltcPolygonIntegral(lobe, vertices), light);
+    if (usable) value += reflectance * lobeIntegral(lobe, vertices, clipping);
     sum += value * light.radiance;
   }
   return sum;
@@ -58,7 +72,7 @@ Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, cons
 
 }  // namespace
 
-Film renderTwin(const Scene& scene, const Table& table, int threads) {
+Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping, int threads) {
   const std::vector<std::string>& channels = table.info().channels;
   for (const char* const needed : {"norm", "fresnel"}) {
     if (std::find(channels.begin(), channels.end(), needed) == channels.end())
@@ -72,7 +86,8 @@ Film renderTwin(const Scene& scene, const Table& table, int threads) {
       const std::size_t pixel = row * film.width + column;
       film.kinds[pixel] = view.kind;
       if (view.kind == PixelKind::kLight) film.radiance[pixel] = scene.lights[view.light].radiance;
-      if (view.kind == PixelKind::kSurface) film.radiance[pixel] = shadeByTable(scene, view.point, table);
+      if (view.kind == PixelKind::kSurface)
+        film.radiance[pixel] = shadeByTable(scene, view.point, table, clipping);
     }
   }
   return film;

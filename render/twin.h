@@ -8,13 +8,21 @@
 
 namespace ltcfit {
 
+/// How a light that goes through the lobe's horizon is clipped there.
+enum class HorizonClipping {
+  kExact,        ///< edge by edge (ltc/polygon.h): what ltc.glsl does
+  kProxySphere,  ///< a sphere of the same vector form factor, by the closed fit of Hill and Heitz 2016
+};
+inline constexpr std::size_t kHorizonClippings = 2;
+
 /// Reflected radiance towards the camera. Each light adds its radiance times
 ///   (f0 norm + (1 - f0) fresnel) Psi(lobe) + diffuse Psi(cosine),
-/// Psi the integral of the LTC that the table yields here, and of the clamped cosine, over the light, exactly
-/// clipped at the horizon (Heitz et al. 2016, eq. 10 and 11), 0 behind a one-sided light. `table` as the
-/// shader reads it (storedAs); an isotropic one reads alpha.x(). Where a look-up has no inverse the lobe adds
-/// nothing. A table without norm or fresnel throws std::invalid_argument. `threads` 0 = all cores; does not
-/// change the picture.
-Film renderTwin(const Scene& scene, const Table& table, int threads = 0);
+/// Psi the integral of the LTC that the table yields here, and of the clamped cosine, over the light (Heitz
+/// et al. 2016, eq. 10 and 11), 0 behind a one-sided light. The cosine's is always clipped exactly. `table`
+/// as the shader reads it (storedAs); an isotropic one reads alpha.x(). Where a look-up has no inverse the
+/// lobe adds nothing. A table without norm or fresnel throws std::invalid_argument. `threads` 0 = all cores;
+/// does not change the picture.
+Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping = HorizonClipping::kExact,
+                int threads = 0);
 
 }  // namespace ltcfit

@@ -195,7 +195,7 @@ TEST(Twin, IsTheShareOfTheLobesSamplesThatMeetTheLight) {
     scene.camera.width = 16;
     scene.camera.height = 12;
     scene.surfaces[0].material.f0 = 0.3;
-    const Film film = renderTwin(scene, stored, 1);
+    const Film film = renderTwin(scene, stored);
     Random random(5);
     int tried = 0;
     for (std::size_t pixel = 0; pixel < film.radiance.size(); pixel += 5) {
