@@ -13,6 +13,9 @@ namespace ltcfit {
 /// becomes a square of `zoom` pixels, at least 1.
 Picture toPicture(const Film& film, std::size_t zoom = 1);
 
+/// By how much differences are amplified in pictures.
+inline constexpr double kDifferenceGain = 5.0;
+
 /// `gain` times the absolute difference where both show a surface, 0 elsewhere. Films of one size, else the
 /// program aborts.
 Film difference(const Film& a, const Film& b, double gain);

@@ -72,6 +72,10 @@ Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, cons
 
 }  // namespace
 
+std::string_view horizonClippingName(HorizonClipping clipping) {
+  return clipping == HorizonClipping::kExact ? "exact" : "proxy-sphere";
+}
+
 Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping, int threads) {
   const std::vector<std::string>& channels = table.info().channels;
   for (const char* const needed : {"norm", "fresnel"}) {

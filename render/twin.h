@@ -2,6 +2,8 @@
 // integral, in double arithmetic.
 #pragma once
 
+#include <string_view>
+
 #include "ltc/table.h"
 #include "render/film.h"
 #include "render/scene.h"
@@ -14,6 +16,9 @@ enum class HorizonClipping {
   kProxySphere,  ///< a sphere of the same vector form factor, by the closed fit of Hill and Heitz 2016
 };
 inline constexpr std::size_t kHorizonClippings = 2;
+
+/// "exact", "proxy-sphere".
+std::string_view horizonClippingName(HorizonClipping clipping);
 
 /// Reflected radiance towards the camera. Each light adds its radiance times
 ///   (f0 norm + (1 - f0) fresnel) Psi(lobe) + diffuse Psi(cosine),
