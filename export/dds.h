@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "export/image.h"
 
@@ -22,5 +23,11 @@ bool isDds(std::string_view bytes);
 /// Reads what imageToDds writes, of either header. InputError with `name` for anything else: other formats,
 /// mip maps, cube maps, a length that is not what the header claims.
 Image parseDds(std::string_view bytes, const std::string& name);
+
+/// A chain of mip maps (isMipChain), with a DX10 header. Throws std::invalid_argument for others.
+std::string mipsToDds(const std::vector<Image>& levels);
+
+/// Reads what mipsToDds writes; InputError with `name` for anything else.
+std::vector<Image> parseDdsMips(std::string_view bytes, const std::string& name);
 
 }  // namespace ltcfit

@@ -30,4 +30,19 @@ bool isExr(std::string_view bytes);
 /// and sizes that the file's length cannot hold, before anything of that size is allocated.
 ExrFile parseExr(std::string_view bytes, const std::string& name);
 
+/// A chain of mip maps of RGBA, down to one texel, and the file's attributes of type string.
+struct ExrMips {
+  std::vector<Image> levels;  ///< from the finest on
+  std::vector<std::pair<std::string, std::string>> attributes;
+};
+
+/// Tiles of all levels, ZIP-compressed. Throws std::invalid_argument for a chain that is none (isMipChain) or
+/// ends early: this format has no place for one.
+std::string mipsToExr(const ExrMips& file);
+
+/// Reads what mipsToExr writes: a single-part file of mip maps, their sizes rounded down, of half or float
+/// channels R, G, B and A, its data window from the origin; losslessly compressed. InputError with `name` for
+/// anything else, as parseExr.
+ExrMips parseExrMips(std::string_view bytes, const std::string& name);
+
 }  // namespace ltcfit

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 
 #include "export/atomic_file.h"
 #include "export/little_endian.h"
+#include "export/mip_chain.h"
 
 // KTX File Format Specification 2.0, revision 4: identifier, header, index, level index, data format
 // descriptor, key/value data, levels.
@@ -23,8 +25,11 @@ constexpr std::uint32_t kZstd = 2;
 // A frame of zstd holds at most this many bytes for one of its own, tables of zeros apart: a table never
 // comes near it. It bounds what a damaged length can make us allocate.
 constexpr std::size_t kMaxRatio = 256;
+// That of zstd itself, a block of 128 KiB of one byte in 4 bytes: pictures may be black.
+constexpr std::size_t kMaxPictureRatio = 32768;
 constexpr std::size_t kMaxSide = 16384;
 constexpr int kZstdLevel = 19;  // smallest output for 64 KiB; takes 20 ms
+constexpr int kZstdPictureLevel = 9;
 
 struct Format {
   std::uint32_t vkFormat;
@@ -72,16 +77,16 @@ std::string keyValueData(std::vector<std::pair<std::string, std::string>> pairs)
   return out;
 }
 
-std::string deflate(const std::string& level) {
+std::string deflate(const std::string& level, int effort) {
   std::string out(ZSTD_compressBound(level.size()), '\0');
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), level.data(), level.size(), kZstdLevel);
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), level.data(), level.size(), effort);
   if (ZSTD_isError(size) != 0) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
   out.resize(size);
   return out;
 }
 
-std::string inflate(std::string_view level, std::size_t size, const std::string& name) {
-  if (size / kMaxRatio > level.size())
+std::string inflate(std::string_view level, std::size_t size, std::size_t maxRatio, const std::string& name) {
+  if (size / maxRatio > level.size())
     throw InputError(fmt::format("{}: claims {} bytes in {} compressed ones", name, size, level.size()));
   std::string out(size, '\0');
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), level.data(), level.size());
@@ -119,66 +124,77 @@ std::string_view part(std::string_view bytes, std::uint64_t offset, std::uint64_
   return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
-}  // namespace
-
-std::string imageToKtx2(const Ktx2File& file, Ktx2Compression compression) {
-  const Image& image = file.image;
-  const Format* format = nullptr;
+const Format* formatOf(const Image& image) {
   for (const Format& f : kFormats) {
-    if (f.components == image.components && f.precision == image.precision) format = &f;
+    if (f.components == image.components && f.precision == image.precision) return &f;
   }
-  if (format == nullptr) throw std::invalid_argument("KTX2: need 1, 2 or 4 components a texel");
-  if (image.layers > 1 && image.depth > 1) throw std::invalid_argument("KTX2: no arrays of volumes");
-  std::string level;
-  appendValues(level, image.values, image.precision);
-  const std::size_t uncompressed = level.size();
-  if (compression == Ktx2Compression::kZstd) level = deflate(level);
+  return nullptr;
+}
+
+// `images` are the levels, from the finest on.
+std::string toKtx2(std::span<const Image> images,
+                   const std::vector<std::pair<std::string, std::string>>& pairs, Ktx2Compression compression,
+                   int effort) {
+  const Image& image = images[0];
+  const bool isPacked = compression == Ktx2Compression::kZstd;
   const std::string descriptor = dataFormatDescriptor(image);
-  const std::string keyValues = keyValueData(file.keyValues);
-  const std::size_t descriptorAt = kHeaderSize + kLevelIndexSize;
+  const std::string keyValues = keyValueData(pairs);
+  const std::size_t descriptorAt = kHeaderSize + kLevelIndexSize * images.size();
   const std::size_t keyValuesAt = descriptorAt + descriptor.size();
   // an uncompressed level starts at a multiple of the texel size and of 4
-  const std::size_t alignment = compression == Ktx2Compression::kZstd
-                                    ? 1
-                                    : std::max<std::size_t>(4, image.components * image.bytesPerValue());
-  const std::size_t end = keyValuesAt + keyValues.size();
-  const std::size_t levelAt = (end + alignment - 1) / alignment * alignment;
+  const std::size_t alignment =
+      isPacked ? 1 : std::max<std::size_t>(4, image.components * image.bytesPerValue());
   const auto u32 = [](std::size_t v) { return static_cast<std::uint32_t>(v); };
 
   std::string out(kIdentifier);
-  append(out, format->vkFormat);
+  append(out, formatOf(image)->vkFormat);
   append(out, u32(image.bytesPerValue()));  // typeSize
   append(out, u32(image.width));
   append(out, u32(image.height));
   append(out, u32(image.depth > 1 ? image.depth : 0));
   append(out, u32(image.layers > 1 ? image.layers : 0));
   append(out, std::uint32_t{1});  // faces
-  append(out, std::uint32_t{1});  // levels
-  append(out, compression == Ktx2Compression::kZstd ? kZstd : 0u);
+  append(out, u32(images.size()));
+  append(out, isPacked ? kZstd : 0u);
   append(out, u32(descriptorAt));
   append(out, u32(descriptor.size()));
   append(out, u32(keyValues.empty() ? 0 : keyValuesAt));
   append(out, u32(keyValues.size()));
   append(out, std::uint64_t{0});  // no supercompression global data
   append(out, std::uint64_t{0});
-  append(out, std::uint64_t{levelAt});
-  append(out, std::uint64_t{level.size()});
-  append(out, std::uint64_t{uncompressed});
-  out += descriptor + keyValues;
-  out.append(levelAt - end, '\0');
-  return out + level;
+
+  // the index runs from the finest level, the data from the coarsest
+  std::vector<std::array<std::uint64_t, 3>> index(images.size());
+  std::string data;
+  const std::size_t dataAt = keyValuesAt + keyValues.size();
+  for (std::size_t l = images.size(); l-- > 0;) {
+    std::string level;
+    appendValues(level, images[l].values, images[l].precision);
+    const std::size_t uncompressed = level.size();
+    if (isPacked) level = deflate(level, effort);
+    data.append((alignment - (dataAt + data.size()) % alignment) % alignment, '\0');
+    index[l] = {dataAt + data.size(), level.size(), uncompressed};
+    data += level;
+  }
+  for (const auto& entry : index)
+    for (const std::uint64_t number : entry) append(out, number);
+  return out + descriptor + keyValues + data;
 }
 
-bool isKtx2(std::string_view bytes) {
-  return bytes.starts_with(kIdentifier);
-}
+// What the header says: the finest level, without its values, and how many levels there are.
+struct Header {
+  Image image;
+  std::size_t levels = 1;
+  bool isPacked = false;
+  std::vector<std::pair<std::string, std::string>> keyValues;
+};
 
-Ktx2File parseKtx2(std::string_view bytes, const std::string& name) {
+Header parseHeader(std::string_view bytes, const std::string& name) {
   if (!isKtx2(bytes) || bytes.size() < kHeaderSize + kLevelIndexSize)
     throw InputError(name + ": not a KTX2 file, or cut off in its header");
   const auto field = [&](std::size_t offset) { return readAt<std::uint32_t>(bytes, offset); };
-  Ktx2File file;
-  Image& image = file.image;
+  Header header;
+  Image& image = header.image;
   bool known = false;
   for (const Format& f : kFormats) {
     if (field(12) != f.vkFormat) continue;
@@ -193,28 +209,73 @@ Ktx2File parseKtx2(std::string_view bytes, const std::string& name) {
   image.height = field(24);
   image.depth = std::max(1u, field(28));
   image.layers = std::max(1u, field(32));
-  if (field(36) != 1)
-    throw InputError(fmt::format("{}: KTX2 with {} faces; a table has one", name, field(36)));
-  if (field(40) > 1)
-    throw InputError(fmt::format("{}: KTX2 with {} levels; a table has one", name, field(40)));
+  if (field(36) != 1) throw InputError(fmt::format("{}: KTX2 with {} faces; need one", name, field(36)));
+  header.levels = std::max(1u, field(40));
   const std::uint32_t scheme = field(44);
   if (scheme != 0 && scheme != kZstd)
     throw InputError(fmt::format("{}: KTX2 supercompression {} is not known (0 none, 2 zstd)", name, scheme));
-  std::size_t size = image.components * image.bytesPerValue();
+  header.isPacked = scheme == kZstd;
   for (std::size_t side : {image.width, image.height, image.depth, image.layers}) {
     if (side == 0 || side > kMaxSide)
       throw InputError(fmt::format("{}: KTX2 header: a size of {}; need 1 to {}", name, side, kMaxSide));
-    size *= side;  // 2^60 at most
   }
-  file.keyValues = parseKeyValues(part(bytes, field(56), field(60), "key/value data", name), name);
-  const std::string_view level = part(bytes, readAt<std::uint64_t>(bytes, kHeaderSize),
-                                      readAt<std::uint64_t>(bytes, kHeaderSize + 8), "level", name);
-  if (readAt<std::uint64_t>(bytes, kHeaderSize + 16) != size || (scheme == 0 && level.size() != size)) {
+  header.keyValues = parseKeyValues(part(bytes, field(56), field(60), "key/value data", name), name);
+  return header;
+}
+
+// The values of level `l`, whose size `image` has.
+std::vector<float> parseLevel(std::string_view bytes, std::size_t l, const Image& image, bool isPacked,
+                              std::size_t maxRatio, const std::string& name) {
+  const std::size_t at = kHeaderSize + kLevelIndexSize * l;
+  const std::string_view level =
+      part(bytes, readAt<std::uint64_t>(bytes, at), readAt<std::uint64_t>(bytes, at + 8), "level", name);
+  const std::size_t size = image.texels() * image.components * image.bytesPerValue();  // 2^60 at most
+  if (readAt<std::uint64_t>(bytes, at + 16) != size || (!isPacked && level.size() != size)) {
     throw InputError(fmt::format("{}: {} x {} x {} texels, {} layers do not fit the length of the level",
                                  name, image.width, image.height, image.depth, image.layers));
   }
-  image.values = scheme == kZstd ? readValues(inflate(level, size, name), image.precision)
-                                 : readValues(level, image.precision);
+  return isPacked ? readValues(inflate(level, size, maxRatio, name), image.precision)
+                  : readValues(level, image.precision);
+}
+
+}  // namespace
+
+std::string imageToKtx2(const Ktx2File& file, Ktx2Compression compression) {
+  const Image& image = file.image;
+  if (formatOf(image) == nullptr) throw std::invalid_argument("KTX2: need 1, 2 or 4 components a texel");
+  if (image.layers > 1 && image.depth > 1) throw std::invalid_argument("KTX2: no arrays of volumes");
+  return toKtx2({&image, 1}, file.keyValues, compression, kZstdLevel);
+}
+
+std::string mipsToKtx2(const Ktx2Mips& file, Ktx2Compression compression) {
+  if (!isMipChain(file.levels)) throw std::invalid_argument("KTX2: the levels are no chain of mip maps");
+  return toKtx2(file.levels, file.keyValues, compression, kZstdPictureLevel);
+}
+
+bool isKtx2(std::string_view bytes) {
+  return bytes.starts_with(kIdentifier);
+}
+
+Ktx2File parseKtx2(std::string_view bytes, const std::string& name) {
+  Header header = parseHeader(bytes, name);
+  if (header.levels > 1)
+    throw InputError(fmt::format("{}: KTX2 with {} levels; a table has one", name, header.levels));
+  Ktx2File file{std::move(header.image), std::move(header.keyValues)};
+  file.image.values = parseLevel(bytes, 0, file.image, header.isPacked, kMaxRatio, name);
+  return file;
+}
+
+Ktx2Mips parseKtx2Mips(std::string_view bytes, const std::string& name) {
+  Header header = parseHeader(bytes, name);
+  const Image& finest = header.image;
+  if (finest.depth > 1 || finest.layers > 1 || finest.components != 4)
+    throw InputError(name + ": KTX2: need one RGBA texture of two dimensions");
+  if (header.levels > kMaxLevels || bytes.size() < kHeaderSize + kLevelIndexSize * header.levels)
+    throw InputError(fmt::format("{}: KTX2 with {} levels, or cut off in their index", name, header.levels));
+  Ktx2Mips file{mipLevels(finest, header.levels), std::move(header.keyValues)};
+  for (std::size_t l = 0; l < header.levels; ++l)
+    file.levels[l].values = parseLevel(bytes, l, file.levels[l], header.isPacked, kMaxPictureRatio, name);
+  if (!isMipChain(file.levels)) throw InputError(name + ": KTX2: more levels than its size has");
   return file;
 }
 

@@ -31,4 +31,18 @@ bool isKtx2(std::string_view bytes);
 /// do not fit. Nothing is allocated for a claim that the file's length does not bear out.
 Ktx2File parseKtx2(std::string_view bytes, const std::string& name);
 
+/// A KTX2 file of a chain of mip maps and its key/value pairs.
+struct Ktx2Mips {
+  std::vector<Image> levels;  ///< from the finest on
+  std::vector<std::pair<std::string, std::string>> keyValues;
+};
+
+/// A chain of mip maps (isMipChain), the coarsest first in the file as the specification wants, each level
+/// compressed on its own. Throws std::invalid_argument for others.
+std::string mipsToKtx2(const Ktx2Mips& file, Ktx2Compression compression);
+
+/// Reads what mipsToKtx2 writes, from any writer; else InputError with `name`. Nothing is allocated for a
+/// claim that the file's length does not bear out.
+Ktx2Mips parseKtx2Mips(std::string_view bytes, const std::string& name);
+
 }  // namespace ltcfit

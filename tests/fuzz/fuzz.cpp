@@ -10,6 +10,7 @@
 #include "export/exr.h"
 #include "export/json_table.h"
 #include "export/ktx2.h"
+#include "export/mip_chain.h"
 #include "export/npy.h"
 #include "export/published_table.h"
 #include "export/source_table.h"
@@ -47,6 +48,9 @@ void read(std::string_view bytes) {
     const Image image = parseDds(bytes, "T");
     check(image);
     tableFrom2017(image, nullptr, "T");
+  });
+  attempt([&] {
+    if (!isMipChain(parseDdsMips(bytes, "T"))) std::abort();
   });
 #elif defined(LTCFIT_FUZZ_KTX2)
   attempt([&] {
