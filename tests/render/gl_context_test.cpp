@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "tests/render/gl.h"
 
@@ -29,22 +28,7 @@ TEST(GlContext, SaysWhatItIsAndMayFollowAnother) {
   std::printf("%s\n", name.c_str());
 }
 
-// In a process of its own, since a library that was found once stays found.
-class GlContextDeathTest : public testing::Test {
- protected:
-  GlContextDeathTest() : folder_(std::filesystem::temp_directory_path() / "ltcfit-gl-XXXXXX") {
-    std::string name = folder_.string();
-    if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no folder " << name;
-    folder_ = name;
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
-  }
-  ~GlContextDeathTest() override { std::filesystem::remove_all(folder_); }
-
-  // A file that is no library, found before the one that is.
-  void hide(const char* library) { std::ofstream(folder_ / library) << "not a library"; }
-
-  std::filesystem::path folder_;
-};
+using GlContextDeathTest = WithoutLibraries;
 
 [[noreturn]] void openContext() {
   try {
@@ -62,14 +46,12 @@ TEST_F(GlContextDeathTest, NamesWhatIsMissing) {
               "^OpenGL: no context without a window \\(tried .*EGL_.*install an OpenGL driver");
   unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
 
-  ASSERT_EQ(setenv("LD_LIBRARY_PATH", folder_.c_str(), 1), 0);
   hide("libEGL.so.1");
   EXPECT_EXIT(openContext(), testing::ExitedWithCode(1),
               "^OpenGL: libEGL.so.1 is not on this machine; install");
   std::filesystem::remove(folder_ / "libEGL.so.1");
   for (const char* library : {"libOpenGL.so.0", "libGL.so.1", "libGLESv2.so.2"}) hide(library);
   EXPECT_EXIT(openContext(), testing::ExitedWithCode(1), "^OpenGL: none of libOpenGL.so.0, .* is on this");
-  unsetenv("LD_LIBRARY_PATH");
 }
 
 }  // namespace

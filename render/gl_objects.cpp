@@ -1,0 +1,146 @@
+#include "render/gl_objects.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "export/little_endian.h"
+#include "render/gl_context.h"
+
+namespace ltcfit {
+namespace {
+
+std::string errorName(GLenum error) {
+  switch (error) {
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    default:
+      return fmt::format("OpenGL error 0x{:x}", error);
+  }
+}
+
+GlObject compile(GLenum stage, std::span<const std::string_view> texts, std::string_view name) {
+  GlObject shader(glCreateShader(stage), [](unsigned id) { glDeleteShader(id); });
+  std::vector<const GLchar*> begins;
+  std::vector<GLint> lengths;
+  for (const std::string_view text : texts) {
+    begins.push_back(text.data());
+    lengths.push_back(static_cast<GLint>(text.size()));
+  }
+  glShaderSource(shader.id(), static_cast<GLsizei>(texts.size()), begins.data(), lengths.data());
+  glCompileShader(shader.id());
+  GLint good = GL_FALSE;
+  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &good);
+  if (good == GL_TRUE) return shader;
+  std::array<GLchar, 4096> log{};
+  glGetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+  throw GlError(fmt::format("OpenGL: {} does not compile: {}", name, log.data()));
+}
+
+}  // namespace
+
+void checkGl(std::string_view what) {
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR) return;
+  // drivers may hold one error for each of their parts; a lost context reports errors without end
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) continue;
+  throw GlError(fmt::format("OpenGL: {}: {}", what, errorName(error)));
+}
+
+GlObject makeProgram(std::span<const std::string_view> vertex, std::span<const std::string_view> fragment,
+                     std::string_view name) {
+  const GlObject first = compile(GL_VERTEX_SHADER, vertex, fmt::format("{} (vertices)", name));
+  const GlObject second = compile(GL_FRAGMENT_SHADER, fragment, name);
+  GlObject program(glCreateProgram(), [](unsigned id) { glDeleteProgram(id); });
+  glAttachShader(program.id(), first.id());
+  glAttachShader(program.id(), second.id());
+  glLinkProgram(program.id());
+  GLint good = GL_FALSE;
+  glGetProgramiv(program.id(), GL_LINK_STATUS, &good);
+  if (good == GL_TRUE) {
+    checkGl(name);
+    return program;
+  }
+  std::array<GLchar, 4096> log{};
+  glGetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+  throw GlError(fmt::format("OpenGL: {} does not link: {}", name, log.data()));
+}
+
+GlObject makeTexture(const Image& image) {
+  const bool half = image.precision == Precision::kHalf;
+  if (!half && !epoxy_is_desktop_gl() && !epoxy_has_gl_extension("GL_OES_texture_float_linear")) {
+    throw GlError(
+        "OpenGL: this OpenGL ES does not filter float textures (no GL_OES_texture_float_linear); export the "
+        "table with --precision half");
+  }
+  GlObject texture(0, nullptr);
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  texture = GlObject(id, [](unsigned name) { glDeleteTextures(1, &name); });
+  const GLenum target = image.depth > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
+  glBindTexture(target, id);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTexParameteri(target, axis, GL_CLAMP_TO_EDGE);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(target, filter, GL_LINEAR);
+  const bool pair = image.components == 2;
+  const GLint format = half ? (pair ? GL_RG16F : GL_RGBA16F) : (pair ? GL_RG32F : GL_RGBA32F);
+  const GLenum order = pair ? GL_RG : GL_RGBA;
+  // the halves themselves: what a driver makes of floats that are given for halves is its own
+  const GLenum type = half ? GL_HALF_FLOAT : GL_FLOAT;
+  std::string bytes;
+  appendValues(bytes, image.values, image.precision);
+  const auto width = static_cast<GLsizei>(image.width);
+  const auto height = static_cast<GLsizei>(image.height);
+  const auto depth = static_cast<GLsizei>(image.depth);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  if (target == GL_TEXTURE_3D) {
+    glTexImage3D(target, 0, format, width, height, depth, 0, order, type, bytes.data());
+  } else {
+    glTexImage2D(target, 0, format, width, height, 0, order, type, bytes.data());
+  }
+  checkGl(fmt::format("a texture of {} x {} x {}", width, height, depth));
+  return texture;
+}
+
+GlObject makeVertexArray() {
+  GLuint id = 0;
+  glGenVertexArrays(1, &id);
+  return {id, [](unsigned name) { glDeleteVertexArrays(1, &name); }};
+}
+
+GlTarget makeTarget(std::size_t width, std::size_t height) {
+  GlTarget target;
+  target.width = width;
+  target.height = height;
+  GLuint id = 0;
+  glGenRenderbuffers(1, &id);
+  target.colour = GlObject(id, [](unsigned name) { glDeleteRenderbuffers(1, &name); });
+  glBindRenderbuffer(GL_RENDERBUFFER, id);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, static_cast<GLsizei>(width),
+                        static_cast<GLsizei>(height));
+  const std::string what = fmt::format("a float picture of {} x {}", width, height);
+  checkGl(what);
+  GLuint framebuffer = 0;
+  glGenFramebuffers(1, &framebuffer);
+  target.framebuffer = GlObject(framebuffer, [](unsigned name) { glDeleteFramebuffers(1, &name); });
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, id);
+  if (const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
+    throw GlError(fmt::format("OpenGL: cannot draw into {} (framebuffer status 0x{:x})", what, status));
+  checkGl(what);
+  return target;
+}
+
+}  // namespace ltcfit

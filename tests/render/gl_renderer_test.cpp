@@ -1,0 +1,262 @@
+// What OpenGL draws against the double-precision twin.
+#include "render/gl_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "export/atomic_file.h"
+#include "render/picture_error.h"
+#include "render/scenes.h"
+#include "render/twin.h"
+#include "tests/render/gl.h"
+
+namespace ltcfit::test {
+namespace {
+
+class GlRendererTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string reason = glUnavailable();
+    if (!reason.empty()) GTEST_SKIP() << reason;
+    context_ = std::make_unique<GlContext>();
+  }
+  std::unique_ptr<GlContext> context_;
+};
+
+ShaderTable dataTable(const std::string& name) {
+  return loadShaderTable(std::string(LTCFIT_DATA_DIR) + "/" + name);
+}
+
+// Half the size is enough to see a fault, and the same scene.
+Scene smaller(Scene scene) {
+  scene.camera.width /= 2;
+  scene.camera.height /= 2;
+  return scene;
+}
+
+void expectAgreement(const ShaderTable& table, GlRenderer& renderer, const Scene& scene, double floor) {
+  const PictureError error = pictureError(renderer.render(scene), renderTwin(scene, table.table));
+  EXPECT_GE(error.psnr, floor) << scene.name;
+  EXPECT_EQ(error.nonFinite, 0u) << scene.name;
+  EXPECT_GT(error.pixels, 100u) << scene.name;
+  // a ray that passes within float32's rounding of an outline
+  EXPECT_LE(error.kindsDiffer, 2u) << scene.name;
+  std::printf("  %-18s %6.1f dB, largest %.1e, %zu pixels\n", scene.name.c_str(), error.psnr, error.largest,
+              error.pixels);
+}
+
+// float32 is good for 97 to 150 dB here: 90 leaves room for another compiler of the shader. Halves are the
+// same numbers for both.
+constexpr double kFloor = 90.0;
+
+TEST_F(GlRendererTest, AgreesWithTheTwinInEveryScene) {
+  for (const char* name : {"ltc_iso.json", "ltc_iso.ktx2", "ltc_aniso.json", "ltc_aniso.ktx2"}) {
+    const ShaderTable table = dataTable(name);
+    GlRenderer renderer(table);
+    std::printf("%s: %s\n", name, table.note.c_str());
+    for (const CheckScene& check : namedScenes(!table.isIsotropic()))
+      expectAgreement(table, renderer, check.scene, kFloor);
+  }
+}
+
+TEST_F(GlRendererTest, AgreesInRandomScenes) {
+  for (const char* name : {"ltc_iso.json", "ltc_aniso.json"}) {
+    const ShaderTable table = dataTable(name);
+    GlRenderer renderer(table);
+    for (std::uint64_t i = 0; i < 20; ++i)
+      expectAgreement(table, renderer, randomScene(3, i, !table.isIsotropic(), 48), kFloor);
+  }
+}
+
+// Materials and lights of every kind in one picture, so that every branch of the shader is compiled.
+TEST_F(GlRendererTest, AgreesWithEverythingAtOnce) {
+  const ShaderTable table = dataTable("ltc_aniso.json");
+  GlRenderer renderer(table);
+  Scene scene = smaller(namedScenes(true)[0].scene);
+  scene.name = "everything";
+  scene.surfaces[0].material.alphaEnd = Eigen::Vector2d(0.6, 0.1);
+  scene.surfaces[0].material.f0 = 0.3;
+  scene.surfaces[0].material.diffuse = 0.4;
+  Surface sphere;
+  sphere.shape = SurfaceShape::kSphere;
+  sphere.centre = Eigen::Vector3d(1.2, -0.5, 0.6);
+  sphere.radius = 0.6;
+  sphere.material.alpha = Eigen::Vector2d(0.1, 0.5);
+  sphere.material.rotation = 0.8;
+  scene.surfaces.push_back(sphere);
+  scene.lights.push_back(makeLight(LightShape::kStar, Eigen::Vector3d(-1.5, 0.5, 1.0),
+                                   Eigen::Vector3d(0.5, 0.2, -0.6), Eigen::Vector2d(0.7, 0.5), 0.3));
+  scene.lights.back().twoSided = true;
+  scene.lights.back().radiance = Eigen::Vector3d(1.0, 0.5, 0.25);
+  scene.lights.push_back(makeLight(LightShape::kDisk, Eigen::Vector3d(2.0, 1.0, 0.4),
+                                   Eigen::Vector3d(-1.0, -0.4, 0.1), Eigen::Vector2d(0.6, 0.6)));
+  expectAgreement(table, renderer, scene, kFloor);
+}
+
+TEST_F(GlRendererTest, LightFromBehindAddsNothing) {
+  const ShaderTable table = dataTable("ltc_iso.json");
+  GlRenderer renderer(table);
+  Scene scene = smaller(namedScenes(false)[0].scene);
+  std::reverse(scene.lights[0].vertices.begin(), scene.lights[0].vertices.end());
+  const Film film = renderer.render(scene);
+  const auto lit = [](const Film& f) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < f.kinds.size(); ++i)
+      count += f.kinds[i] == PixelKind::kSurface && f.radiance[i].maxCoeff() > 1e-6 ? 1 : 0;
+    return count;
+  };
+  // it hangs above and faces the ground: turned around it lights at most what stands behind it
+  EXPECT_EQ(lit(film), lit(renderTwin(scene, table.table)));
+  scene.lights[0].twoSided = true;
+  EXPECT_GT(lit(renderer.render(scene)), lit(film));
+}
+
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+std::string planted(const Replacements& replacements) {
+  std::string glsl(shaderText("ltc.glsl"));
+  for (const auto& [text, fault] : replacements) {
+    const std::size_t at = glsl.find(text);
+    if (at == std::string::npos) throw std::logic_error("ltc.glsl has no " + text);
+    glsl.replace(at, text.size(), fault);
+  }
+  return glsl;
+}
+
+// A fault in the text of ltc.glsl, and the scene that is looked at.
+struct Fault {
+  const char* name;
+  const char* scene;
+  Replacements replacements;
+};
+
+double psnrWith(const Fault& fault, const ShaderTable& table) {
+  GlRenderer renderer(table, planted(fault.replacements));
+  const std::vector<CheckScene> scenes = namedScenes(!table.isIsotropic());
+  const auto at =
+      std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.scene.name == fault.scene; });
+  if (at == scenes.end()) throw std::logic_error(std::string("no scene ") + fault.scene);
+  const Scene scene = smaller(at->scene);
+  return pictureError(renderer.render(scene), renderTwin(scene, table.table)).psnr;
+}
+
+void expectSeen(const char* file, const std::vector<Fault>& faults) {
+  const ShaderTable table = dataTable(file);
+  for (const Fault& fault : faults) {
+    const double psnr = psnrWith(fault, table);
+    std::printf("  %s, %s, %s: %.1f dB\n", file, fault.scene, fault.name, psnr);
+    EXPECT_LT(psnr, 40.0) << fault.name;
+    EXPECT_GT(psnrWith({"none", fault.scene, {}}, table), kFloor);
+  }
+}
+
+TEST_F(GlRendererTest, PlantedFaultsAreSeen) {
+  expectSeen("ltc_iso.json",
+             {{"transposed inverse",
+               "rectangle",
+               {{"vec3(t.x, 0.0, t.y), vec3(0.0, 1.0, 0.0), vec3(t.z, 0.0, t.w)",
+                 "vec3(t.x, 0.0, t.z), vec3(0.0, 1.0, 0.0), vec3(t.y, 0.0, t.w)"}}},
+              {"texel edges for centres", "mirror", {{"uv = uv * (size - 1.0) / size + 0.5 / size;", ""}}},
+              {"no clipping", "horizon", {{"a.z > 0.0 && b.z > 0.0", "true"}}}});
+  // Mirrors on one side only, as eq. 13 and 15 of KT et al. 2022 have them, turn the winding of lights: det M
+  // < 0 in two quadrants. ltc.glsl also looks at the sign of the determinant.
+  expectSeen("ltc_aniso.json",
+             {{"transposed inverse",
+               "brushed-spheres",
+               {{"entry.inverse = mat3(c0 * scale, c1 * scale, c2 * scale);",
+                 "entry.inverse = transpose(mat3(c0 * scale, c1 * scale, c2 * scale));"}}},
+              {"missing winding flip",
+               "brushed-spheres",
+               {{"m0 *= flip * flip.x;", "m0 *= flip;"},
+                {"m1 *= flip * flip.y;", "m1 *= flip;"},
+                {"if (dot(m0, c0) < 0.0) scale *= vec3(-1.0, 1.0, -1.0);", ""}}},
+              {"no mirrors", "brushed-spheres", {{"m0 *= flip * flip.x;", "flip = vec3(1.0);"}}},
+              {"no swap", "needles", {{"bool swapped = alphaY > alphaX;", "bool swapped = false;"}}}});
+}
+
+TEST_F(GlRendererTest, ErrorsNameWhatIsWrong) {
+  const ShaderTable table = dataTable("ltc_iso.json");
+  const Scene scene = smaller(namedScenes(false)[0].scene);
+  const auto message = [&](GlRenderer& renderer, const Scene& s) {
+    try {
+      renderer.render(s);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  GlRenderer broken(table, planted({{"entry.norm = a.x;", "entry.norm = a.xy;"}}));
+  EXPECT_NE(message(broken, scene).find("scene.glsl does not compile"), std::string::npos);
+  GlRenderer renderer(table);
+  EXPECT_EQ(message(renderer, scene), "");
+  Scene brushed = scene;
+  brushed.surfaces[0].material.alpha.y() *= 0.5;
+  EXPECT_NE(message(renderer, brushed).find("need an anisotropic table"), std::string::npos);
+  Scene dark = scene;
+  dark.lights.clear();
+  EXPECT_NE(message(renderer, dark).find("0 lights"), std::string::npos);
+  Scene empty = scene;
+  empty.surfaces.clear();
+  EXPECT_NE(message(renderer, empty).find("0 surfaces"), std::string::npos);
+  Scene large = scene;
+  large.camera.width = 1 << 16;
+  EXPECT_NE(message(renderer, large).find("a float picture of 65536 x"), std::string::npos);
+  // nothing of that stays behind
+  EXPECT_EQ(message(renderer, scene), "");
+}
+
+// Without desktop OpenGL: the renderer's name, and how far a picture of both kinds of tables is off.
+[[noreturn]] void drawByEs() {
+  try {
+    const GlContext context;
+    std::fprintf(stderr, "%s", glRendererName().c_str());
+    for (const char* name : {"ltc_iso.json", "ltc_aniso.ktx2"}) {
+      const ShaderTable table = dataTable(name);
+      GlRenderer renderer(table);
+      for (const CheckScene& check : namedScenes(!table.isIsotropic())) {
+        if (check.scene.name != "rectangle" && check.scene.name != "brushed-star") continue;
+        const Scene scene = smaller(check.scene);
+        const double psnr = pictureError(renderer.render(scene), renderTwin(scene, table.table)).psnr;
+        std::fprintf(stderr, ", %s %.1f dB", name, psnr);
+        if (!(psnr > kFloor)) std::exit(2);
+      }
+    }
+    std::fprintf(stderr, ", done\n");
+    std::exit(0);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  }
+  std::exit(1);
+}
+
+using GlRendererDeathTest = WithoutLibraries;
+
+TEST_F(GlRendererDeathTest, DrawsByEs) {
+  hide("libOpenGL.so.0");
+  hide("libGL.so.1");
+  const std::string reason = glUnavailable();
+  if (!reason.empty()) GTEST_SKIP() << reason;
+  EXPECT_EXIT(drawByEs(), testing::ExitedWithCode(0), "OpenGL ES 3.*done");
+}
+
+TEST_F(GlRendererTest, FramesTakeTime) {
+  const ShaderTable table = dataTable("ltc_iso.json");
+  GlRenderer renderer(table);
+  const Scene scene = makeScene({});
+  const double small = renderer.frameSeconds(scene, 64, 48, 5);
+  const double large = renderer.frameSeconds(scene, 640, 480, 5);
+  std::printf("  %s: %zu surfaces at 640 x 480: %.2f ms\n", glRendererName().c_str(), scene.surfaces.size(),
+              large * 1e3);
+  EXPECT_GT(small, 0.0);
+  EXPECT_GT(large, small);  // 100 times the pixels
+}
+
+}  // namespace
+}  // namespace ltcfit::test
