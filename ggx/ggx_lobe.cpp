@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "ggx/sin_cos.h"
+
 namespace ltcfit {
 
 using Eigen::Vector3d;
@@ -108,6 +110,65 @@ void GgxLobe::evalBatch(std::span<const double> x, std::span<const double> y, st
     // wz <= 0 makes the numerator 0; the tiny term only keeps 0/0 out of that case
     pe[i] = d * up / (a * up + ai * oz + 1e-300);
     pp[i] = d * pdfScale;
+  }
+}
+
+void GgxLobe::sampleBatch(std::span<const double> u0, std::span<const double> u1, std::span<double> x,
+                          std::span<double> y, std::span<double> z, std::span<double> weight) const {
+  // sampleGgxVisibleNormal, reflected, and acceptance, in a form that vectorises.
+  const Vector3d v = Vector3d(alpha_.x * wo().x(), alpha_.y * wo().y(), wo().z()).normalized();
+  const double length = v.head<2>().norm();
+  const Vector3d t1 = length > 0.0 ? Vector3d(-v.y() / length, v.x() / length, 0.0) : Vector3d::UnitX();
+  const Vector3d t2 = v.cross(t1);
+  const double squeeze = 0.5 * (1.0 + v.z());
+  const double ox = wo().x();
+  const double oy = wo().y();
+  const double oz = wo().z();
+  const double ax = alpha_.x;
+  const double ay = alpha_.y;
+  const double a = stretchedWo_;
+  const double t1x = ax * t1.x();
+  const double t1y = ay * t1.y();
+  const double t2x = ax * t2.x();
+  const double t2y = ay * t2.y();
+  const double t2z = t2.z();
+  const double vx = ax * v.x();
+  const double vy = ay * v.y();
+  const double vz = v.z();
+  const double* const p0 = u0.data();
+  const double* const p1 = u1.data();
+  double* const px = x.data();
+  double* const py = y.data();
+  double* const pz = z.data();
+  double* const pw = weight.data();
+  const std::size_t n = u0.size();
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) {
+    const double r = std::sqrt(p0[i]);
+    double sine;
+    double cosine;
+    sinCos(2.0 * std::numbers::pi * (p1[i] - 0.5), sine, cosine);  // of the opposite direction
+    const double c1 = -r * cosine;
+    const double in = 1.0 - c1 * c1;
+    const double c2 = (1.0 - squeeze) * std::sqrt(in > 0.0 ? in : 0.0) - squeeze * r * sine;
+    const double under = in - c2 * c2;
+    const double c3 = std::sqrt(under > 0.0 ? under : 0.0);
+    const double mx = c1 * t1x + c2 * t2x + c3 * vx;
+    const double my = c1 * t1y + c2 * t2y + c3 * vy;
+    const double up = c2 * t2z + c3 * vz;
+    const double mz = up > 0.0 ? up : 0.0;
+    const double twice = 2.0 * (ox * mx + oy * my + oz * mz) / (mx * mx + my * my + mz * mz);
+    const double wx = twice * mx - ox;
+    const double wy = twice * my - oy;
+    const double wz = twice * mz - oz;
+    const double tx = ax * wx;
+    const double ty = ay * wy;
+    const double ai = std::sqrt(wz * wz + tx * tx + ty * ty);
+    const double above = wz > 0.0 ? wz : 0.0;
+    px[i] = wx;
+    py[i] = wy;
+    pz[i] = wz;
+    pw[i] = (oz + a) * above / (a * above + ai * oz + 1e-300);  // as in evalBatch
   }
 }
 

@@ -30,6 +30,10 @@ class GgxLobe final : public Lobe {
   void evalBatch(std::span<const double> x, std::span<const double> y, std::span<const double> z,
                  std::span<double> eval, std::span<double> pdf) const override;
 
+  /// sample() for many points u = (u0, u1) at once, to rounding; all spans have one length.
+  void sampleBatch(std::span<const double> u0, std::span<const double> u1, std::span<double> x,
+                   std::span<double> y, std::span<double> z, std::span<double> weight) const;
+
   /// The half vector in the configuration of roughness 1, where D is the fourth power of its cosine, and G2 /
   /// G1(wo), which at grazing view falls to 0 in a thin layer at the horizon.
   Eigen::Vector4d stretched(const Eigen::Vector3d& wi) const override;
