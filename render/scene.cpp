@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/light_plane.h"
+
 namespace ltcfit {
 namespace {
 
@@ -65,14 +67,10 @@ double hitLight(const PolygonLight& light, const Ray& ray) {
   normal.cwiseAbs().maxCoeff(&drop);
   const Eigen::Index a = (drop + 1) % 3;
   const Eigen::Index b = (drop + 2) % 3;
+  const auto flat = [&](const Eigen::Vector3d& q) { return Eigen::Vector2d(q[a], q[b]); };
   bool inside = false;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const Eigen::Vector3d& from = v[i];
-    const Eigen::Vector3d& to = v[(i + 1) % v.size()];
-    if ((from[b] > p[b]) != (to[b] > p[b]) &&
-        p[a] < from[a] + (p[b] - from[b]) / (to[b] - from[b]) * (to[a] - from[a]))
-      inside = !inside;
-  }
+  for (std::size_t i = 0; i < v.size(); ++i)
+    inside ^= crossesEdge(flat(v[i]), flat(v[(i + 1) % v.size()]), flat(p));
   return inside ? t : kInfinity;
 }
 
