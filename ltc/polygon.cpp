@@ -135,10 +135,26 @@ Vector3d vectorFormFactor(std::span<const Vector3d> vertices) {
   return formFactorOf(vertices.size(), [&](std::size_t i) -> const Vector3d& { return vertices[i]; });
 }
 
-double ltcPolygonIntegralByProxySphere(const Ltc& ltc, std::span<const Vector3d> vertices) {
+namespace {
+
+// In the cosine's configuration, pointing to the light whichever of the equivalent matrices is given.
+Vector3d ltcFormFactor(const Ltc& ltc, std::span<const Vector3d> vertices) {
   const Vector3d f =
       formFactorOf(vertices.size(), [&](std::size_t i) -> Vector3d { return ltc.mInv() * vertices[i]; });
-  return proxySphereFormFactor(ltc.det() < 0.0 ? Vector3d(-f) : f);
+  return ltc.det() < 0.0 ? Vector3d(-f) : f;
+}
+
+}  // namespace
+
+double ltcPolygonIntegralByProxySphere(const Ltc& ltc, std::span<const Vector3d> vertices) {
+  return proxySphereFormFactor(ltcFormFactor(ltc, vertices));
+}
+
+double ltcPolygonIntegralBySphereTable(const Ltc& ltc, std::span<const Vector3d> vertices,
+                                       const SphereTable& table) {
+  const Vector3d f = ltcFormFactor(ltc, vertices);
+  const double length = f.norm();
+  return length > 0.0 ? length * table(f.z() / length, length) : 0.0;
 }
 
 double proxySphereFormFactor(const Vector3d& f) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "ltc/ltc.h"
+#include "ltc/sphere.h"
 
 namespace ltcfit {
 
@@ -38,5 +39,9 @@ double proxySphereFormFactor(const Eigen::Vector3d& vectorFormFactor);
 
 /// As ltcPolygonIntegral through that shortcut, in [0, 1]: what an engine that takes it shades with.
 double ltcPolygonIntegralByProxySphere(const Ltc& ltc, std::span<const Eigen::Vector3d> vertices);
+
+/// As that, with the sphere's form factor looked up in a table: what engines do that store one.
+double ltcPolygonIntegralBySphereTable(const Ltc& ltc, std::span<const Eigen::Vector3d> vertices,
+                                       const SphereTable& table);
 
 }  // namespace ltcfit

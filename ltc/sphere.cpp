@@ -44,4 +44,25 @@ double sphereTableValue(double cosOmega, double length) {
   return sphereFormFactorClipped(cosOmega, std::sqrt(length)) / length;
 }
 
+SphereTable::SphereTable(std::size_t size) : size_(size) {
+  values_.reserve(size * size);
+  const auto last = static_cast<double>(size - 1);
+  for (std::size_t y = 0; y < size; ++y)
+    for (std::size_t x = 0; x < size; ++x)
+      values_.push_back(
+          sphereTableValue(2.0 * static_cast<double>(x) / last - 1.0, static_cast<double>(y) / last));
+}
+
+double SphereTable::operator()(double cosOmega, double length) const {
+  const auto last = static_cast<double>(size_ - 1);
+  const double x = std::clamp(0.5 * (cosOmega + 1.0), 0.0, 1.0) * last;
+  const double y = std::clamp(length, 0.0, 1.0) * last;
+  const auto x0 = std::min(static_cast<std::size_t>(x), size_ - 2);
+  const auto y0 = std::min(static_cast<std::size_t>(y), size_ - 2);
+  const double* row = values_.data() + y0 * size_ + x0;
+  const double fx = x - static_cast<double>(x0);
+  const double fy = y - static_cast<double>(y0);
+  return std::lerp(std::lerp(row[0], row[1], fx), std::lerp(row[size_], row[size_ + 1], fx), fy);
+}
+
 }  // namespace ltcfit

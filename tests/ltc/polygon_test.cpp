@@ -342,5 +342,25 @@ TEST(ProxySphere, OfAnLtcIsThatOfTheMovedPolygon) {
               ltcPolygonIntegralByProxySphere(Ltc(m), light), 1e-14);
 }
 
+TEST(ProxySphere, TheTableGivesThatSphereToo) {
+  Matrix3d m;
+  m << 0.6, 0.1, 0.3, 0.0, 0.5, 0.2, -0.3, 0.1, 0.9;
+  const SphereTable table;
+  const std::vector<Vector3d> above{{0.1, -0.2, 0.9}, {0.3, 0.1, 0.8}, {0.0, 0.2, 1.0}};
+  // wholly above the horizon a sphere is F.z, as the polygon is; the table is bilinear
+  EXPECT_NEAR(ltcPolygonIntegralBySphereTable(Ltc(m), above, table), ltcPolygonIntegral(Ltc(m), above), 1e-4);
+  const std::vector<Vector3d> light{{0.9, -0.4, -0.1}, {0.9, 0.3, -0.2}, {0.7, 0.5, 0.7}};
+  std::vector<Vector3d> moved;
+  for (const Vector3d& v : light) moved.push_back(m.inverse() * v);
+  const Vector3d f = vectorFormFactor(moved);
+  EXPECT_NEAR(ltcPolygonIntegralBySphereTable(Ltc(m), light, table),
+              sphereFormFactorClipped(f.z() / f.norm(), std::sqrt(f.norm())), 2e-3);
+  Matrix3d flipped = m;
+  flipped.col(0) *= -1.0;
+  EXPECT_NEAR(ltcPolygonIntegralBySphereTable(Ltc(flipped), light, table),
+              ltcPolygonIntegralBySphereTable(Ltc(m), light, table), 1e-14);
+  EXPECT_EQ(ltcPolygonIntegralBySphereTable(Ltc(m), {}, table), 0.0);
+}
+
 }  // namespace
 }  // namespace ltcfit

@@ -120,5 +120,37 @@ TEST(Sphere, IsContinuousWhereTheCasesMeet) {
   }
 }
 
+TEST(SphereTable, IsExactAtNodesAndBilinearBetween) {
+  const SphereTable table;
+  const auto node = [](int x, int y) { return sphereTableValue(2.0 * x / 63.0 - 1.0, y / 63.0); };
+  for (int y = 0; y < 63; ++y) {
+    for (int x = 0; x < 63; ++x) {
+      EXPECT_NEAR(table(2.0 * x / 63.0 - 1.0, y / 63.0), node(x, y), 1e-14);
+      EXPECT_NEAR(table(2.0 * (x + 0.5) / 63.0 - 1.0, (y + 0.5) / 63.0),
+                  0.25 * (node(x, y) + node(x + 1, y) + node(x, y + 1) + node(x + 1, y + 1)), 1e-14);
+    }
+  }
+  EXPECT_EQ(table(1.0, 1.0), 1.0);
+  // clamped to the edge
+  EXPECT_EQ(table(1.5, 2.0), table(1.0, 1.0));
+  EXPECT_EQ(table(-1.5, -1.0), table(-1.0, 0.0));
+}
+
+TEST(SphereTable, IsNearTheSphere) {
+  const SphereTable table;
+  const auto worst = [&](double from, double to) {
+    double error = 0.0;
+    for (double cosine = -1.0; cosine <= 1.0; cosine += 0.003)
+      for (double length = from; length <= to; length += 0.003)
+        error = std::max(error, std::abs(table(cosine, length) * length -
+                                         sphereFormFactorClipped(cosine, std::sqrt(length))));
+    return error;
+  };
+  // cells of 1/63 across the kinks where the sphere meets the horizon; the closed fit is 0.14 off
+  EXPECT_LT(worst(0.0, 60.0 / 63.0), 2e-3);
+  // towards the whole hemisphere the value goes with the root of what is missing
+  EXPECT_LT(worst(60.0 / 63.0, 1.0), 0.021);
+}
+
 }  // namespace
 }  // namespace ltcfit
