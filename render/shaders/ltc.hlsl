@@ -106,28 +106,44 @@ LtcEntry ltcFetchAnisotropic(Texture3D table, SamplerState bilinear, int2 nodes,
   return entry;
 }
 
+// A unit vector; lengths may be from 1e-14 to 1e14.
 float3 ltcTransform(float3x3 inverse, float3 v) {
   float3 t = mul(inverse, v);
-  return t / max(max(max(abs(t.x), abs(t.y)), abs(t.z)), 1e-37);
+  return t * rsqrt(max(dot(t, t), 1e-37));
+}
+
+// half the angle between unit vectors over the length of their cross product, from |a + b|^2
+float ltcArc(float m2) {
+  float r = rsqrt(max(m2, 1e-37));
+  float u = 1.0 - 0.5 * (m2 * r);
+  float p = 0.0171435025 * u - 0.0411506031;
+  p = p * u + 0.0581835484;
+  p = p * u - 0.022929858;
+  p = p * u + 0.0380058068;
+  p = p * u + 0.0546499364;
+  p = p * u + 0.133568009;
+  p = p * u + 0.333325868;
+  return (p * u + 1.0) * r;
 }
 
 float ltcEdge(float3 a, float3 b) {
-  float d = dot(a, b);
-  float3 c = cross(a, d > 0.0 ? b - a : b);
-  float s = length(c);
-  return s > 0.0 ? c.z * atan2(s, d) / s : 0.0;
+  float3 m = a + b;
+  float m2 = dot(m, m);
+  float2 e = float2(b.x, b.y) + (m2 > 2.0 ? -1.0 : 1.0) * float2(a.x, a.y);
+  return (a.x * e.y - a.y * e.x) * ltcArc(m2);
 }
 
 float3 ltcHorizonPoint(float3 a, float3 b) {
-  float3 p = lerp(a, b, abs(a.z) / max(abs(a.z) + abs(b.z), 1e-37));
-  return float3(p.x, p.y, 0.0);
+  float t = abs(a.z) / max(abs(a.z) + abs(b.z), 1e-37);
+  float2 p = float2(a.x, a.y) + (float2(b.x, b.y) - float2(a.x, a.y)) * t;
+  return float3(p * rsqrt(max(dot(p, p), 1e-37)), 0.0);
 }
 
 struct LtcOutline {
   float sum;
-  float3 leave;  // where it last went below the horizon
-  float3 enter;  // where it first came up, when it began below; until then 0, and edges to 0 count nothing
-  bool left;
+  float3 leave;  // crossings down and up between which horizon is still to be added; edges to 0 are none
+  float3 enter;
+  int crossings;  // how many of the two
 };
 
 LtcOutline ltcBegin() {
@@ -135,31 +151,32 @@ LtcOutline ltcBegin() {
   outline.sum = 0.0;
   outline.leave = float3(0.0, 0.0, 0.0);
   outline.enter = float3(0.0, 0.0, 0.0);
-  outline.left = false;
+  outline.crossings = 0;
   return outline;
 }
 
 LtcOutline ltcAddEdge(LtcOutline outline, float3 a, float3 b) {
-  if (a.z > 0.0 && b.z > 0.0) {
-    outline.sum += ltcEdge(a, b);
-  } else if (a.z > 0.0) {
-    outline.leave = ltcHorizonPoint(a, b);
-    outline.left = true;
-    outline.sum += ltcEdge(a, outline.leave);
-  } else if (b.z > 0.0) {
-    float3 up = ltcHorizonPoint(a, b);
-    if (outline.left) {
-      outline.sum += ltcEdge(outline.leave, up);
+  bool aUp = a.z > 0.0;
+  bool bUp = b.z > 0.0;
+  if (aUp != bUp) {
+    float3 p = ltcHorizonPoint(a, b);
+    bool full = outline.crossings == 2;
+    if (full) outline.sum += ltcEdge(outline.leave, aUp ? outline.enter : p);
+    outline.crossings = full ? 1 : outline.crossings + 1;
+    if (aUp) {
+      outline.leave = p;
+      b = p;
     } else {
-      outline.enter = up;
+      if (!full) outline.enter = p;
+      a = p;
     }
-    outline.sum += ltcEdge(up, b);
   }
+  if (aUp || bUp) outline.sum += ltcEdge(a, b);
   return outline;
 }
 
 float ltcEnd(LtcOutline outline) {
-  return (outline.sum + ltcEdge(outline.leave, outline.enter)) * 0.15915494309;  // 1 / (2 pi)
+  return (outline.sum + ltcEdge(outline.leave, outline.enter)) * 0.31830988618;  // 1 / pi
 }
 
 // Integral of the lobe over a quadrilateral light, exactly clipped at the horizon; vertices in the shading
@@ -170,6 +187,9 @@ float ltcQuad(float3x3 inverse, float3 v0, float3 v1, float3 v2, float3 v3) {
   float3 b = ltcTransform(inverse, v1);
   float3 c = ltcTransform(inverse, v2);
   float3 d = ltcTransform(inverse, v3);
+  if (max(max(a.z, b.z), max(c.z, d.z)) <= 0.0) return 0.0;
+  if (min(min(a.z, b.z), min(c.z, d.z)) > 0.0)
+    return (ltcEdge(a, b) + ltcEdge(b, c) + ltcEdge(c, d) + ltcEdge(d, a)) * 0.31830988618;  // 1 / pi
   LtcOutline outline = ltcAddEdge(ltcBegin(), a, b);
   outline = ltcAddEdge(outline, b, c);
   outline = ltcAddEdge(outline, c, d);
@@ -191,6 +211,14 @@ float ltcPolygon(float3x3 inverse, float3 v[LTC_MAX_VERTICES], int count) {
     a = b;
   }
   return ltcEnd(ltcAddEdge(outline, a, first));
+}
+
+// Tests before anything is fetched, with vertices as above: whether the shaded point lies on the side that a
+// one-sided light emits to (v1 a corner where the outline is convex), and whether any part of a light is
+// above the surface (what the lobe gives it otherwise is better left out).
+bool ltcFacing(float3 v0, float3 v1, float3 v2) { return dot(v0, cross(v1 - v0, v2 - v0)) > 0.0; }
+bool ltcAboveSurface(float3 v0, float3 v1, float3 v2, float3 v3) {
+  return max(max(v0.z, v1.z), max(v2.z, v3.z)) > 0.0;
 }
 
 // Reflectance by Schlick's Fresnel; f90 = float3(1, 1, 1) where not known better.

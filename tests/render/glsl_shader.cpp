@@ -31,6 +31,7 @@ vec4 textureLod(sampler3D s, vec3 at, float) {
 }
 
 #include "render/shaders/ltc.glsl"
+#include "render/shaders/ltc_proxy.glsl"
 
 using ltcfit::test::Mat3;
 using ltcfit::test::ShaderEntry;
@@ -73,6 +74,16 @@ constinit const ltcfit::test::Shader ltcfit::test::kGlsl{
       for (std::size_t i = 0; i < vertices.size(); ++i) v[i] = from(vertices[i]);
       return ltcPolygon(from(inverse), v, static_cast<int>(vertices.size()));
     },
+    [](const Mat3& inverse, const std::array<Vec3, 4>& v) {
+      return to(ltcVectorFormFactor(from(inverse), from(v[0]), from(v[1]), from(v[2]), from(v[3])));
+    },
+    [](Vec3 f) { return ltcProxySphere(from(f)); },
+    [](const Texture& table, Vec3 f) { return ltcProxySphereTable({{&table}}, from(f)); },
+    [](Vec3 v0, Vec3 v1, Vec3 v2) { return ltcFacing(from(v0), from(v1), from(v2)); },
+    [](const std::array<Vec3, 4>& v) {
+      return ltcAboveSurface(from(v[0]), from(v[1]), from(v[2]), from(v[3]));
+    },
+    ltcArc,
     [](const ShaderEntry& e, Vec3 f0, Vec3 f90) {
       return to(ltcFresnel({from(e.inverse), e.norm, e.fresnel}, from(f0), from(f90)));
     }};

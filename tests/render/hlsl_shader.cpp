@@ -23,9 +23,6 @@ float3 cross(float3 a, float3 b) {
 float length(float2 v) {
   return std::sqrt(std::fma(v.x, v.x, v.y * v.y));
 }
-float length(float3 v) {
-  return std::sqrt(dot(v, v));
-}
 float rsqrt(float x) {
   return 1.0f / std::sqrt(x);
 }
@@ -78,6 +75,7 @@ struct Texture3D {
 };
 
 #include "render/shaders/ltc.hlsl"
+#include "render/shaders/ltc_proxy.hlsl"
 
 using ltcfit::test::Mat3;
 using ltcfit::test::ShaderEntry;
@@ -118,6 +116,16 @@ constinit const ltcfit::test::Shader ltcfit::test::kHlsl{
       for (std::size_t i = 0; i < vertices.size(); ++i) v[i] = from(vertices[i]);
       return ltcPolygon(from(inverse), v, static_cast<int>(vertices.size()));
     },
+    [](const Mat3& inverse, const std::array<Vec3, 4>& v) {
+      return to(ltcVectorFormFactor(from(inverse), from(v[0]), from(v[1]), from(v[2]), from(v[3])));
+    },
+    [](Vec3 f) { return ltcProxySphere(from(f)); },
+    [](const Texture& table, Vec3 f) { return ltcProxySphereTable({&table}, {}, from(f)); },
+    [](Vec3 v0, Vec3 v1, Vec3 v2) { return ltcFacing(from(v0), from(v1), from(v2)); },
+    [](const std::array<Vec3, 4>& v) {
+      return ltcAboveSurface(from(v[0]), from(v[1]), from(v[2]), from(v[3]));
+    },
+    ltcArc,
     [](const ShaderEntry& e, Vec3 f0, Vec3 f90) {
       return to(ltcFresnel({from(e.inverse), e.norm, e.fresnel}, from(f0), from(f90)));
     }};

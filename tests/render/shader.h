@@ -27,6 +27,12 @@ struct Shader {
   Mat3 (*frame)(Vec3 n, Vec3 v);
   float (*quad)(const Mat3& inverse, const std::array<Vec3, 4>& vertices);
   float (*polygon)(const Mat3& inverse, const std::vector<Vec3>& vertices);  // up to 8
+  Vec3 (*formFactor)(const Mat3& inverse, const std::array<Vec3, 4>& vertices);
+  float (*proxySphere)(Vec3 formFactor);
+  float (*proxySphereTable)(const Texture& table, Vec3 formFactor);
+  bool (*facing)(Vec3 v0, Vec3 v1, Vec3 v2);
+  bool (*aboveSurface)(const std::array<Vec3, 4>& vertices);
+  float (*arc)(float m2);
   Vec3 (*fresnel)(const ShaderEntry& entry, Vec3 f0, Vec3 f90);
 };
 

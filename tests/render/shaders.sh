@@ -1,4 +1,5 @@
-# The shader snippets compile: GLSL 3.30 and ES 3.00, HLSL to valid SPIR-V; isotropic, anisotropic and both.
+# The shader snippets compile: GLSL 3.30 and ES 3.00, HLSL to valid SPIR-V; isotropic, anisotropic, by
+# proxy spheres, and all together.
 validator=$1
 spirv_val=$2  # empty: the SPIR-V is not checked
 shaders=$3
@@ -8,6 +9,7 @@ trap 'rm -rf "$work"' EXIT
 glsl_head='uniform sampler2D matrixTable;
 uniform sampler2D amplitudeTable;
 uniform sampler3D lobes;
+uniform sampler2D spheres;
 uniform vec3 corners[LTC_MAX_VERTICES];
 in vec3 position;
 in vec3 normal;
@@ -31,9 +33,21 @@ glsl_anisotropic='mat3 along = ltcFrame(normal, tangent);
   for (int i = 0; i < LTC_MAX_VERTICES; ++i) local[i] = along * (corners[i] - position);
   colour.a = ltcPolygon(brushed.inverse, local, 5);
 '
+glsl_proxy='LtcEntry fitted = ltcFetch(matrixTable, amplitudeTable, 0.2, dot(normal, view));
+  mat3 facing = ltcFrame(normal, view);
+  vec3 a = facing * (corners[0] - position);
+  vec3 b = facing * (corners[1] - position);
+  vec3 c = facing * (corners[2] - position);
+  vec3 d = facing * (corners[3] - position);
+  if (ltcFacing(a, b, c) && ltcAboveSurface(a, b, c, d)) {
+    vec3 f = ltcVectorFormFactor(fitted.inverse, a, b, c, d);
+    colour.rg += vec2(ltcProxySphere(f), ltcProxySphereTable(spheres, f));
+  }
+'
 hlsl_head='Texture2D matrixTable;
 Texture2D amplitudeTable;
 Texture3D lobes;
+Texture2D spheres;
 SamplerState bilinear;
 cbuffer Light { float4 corners[LTC_MAX_VERTICES]; };
 struct Surface { float3 position : P; float3 normal : N; float3 tangent : T; float3 view : V; };
@@ -55,19 +69,30 @@ hlsl_anisotropic='float3x3 along = ltcFrame(s.normal, s.tangent);
   for (int i = 0; i < LTC_MAX_VERTICES; ++i) local[i] = mul(along, corners[i].xyz - s.position);
   colour.a = ltcPolygon(brushed.inverse, local, 5);
 '
+hlsl_proxy='LtcEntry fitted = ltcFetch(matrixTable, amplitudeTable, bilinear, 0.2, dot(s.normal, s.view));
+  float3x3 facing = ltcFrame(s.normal, s.view);
+  float3 a = mul(facing, corners[0].xyz - s.position);
+  float3 b = mul(facing, corners[1].xyz - s.position);
+  float3 c = mul(facing, corners[2].xyz - s.position);
+  float3 d = mul(facing, corners[3].xyz - s.position);
+  if (ltcFacing(a, b, c) && ltcAboveSurface(a, b, c, d)) {
+    float3 f = ltcVectorFormFactor(fitted.inverse, a, b, c, d);
+    colour.rg += float2(ltcProxySphere(f), ltcProxySphereTable(spheres, bilinear, f));
+  }
+'
 
 # glsl VERSION BODY, hlsl BODY: whether a fragment shader with that body compiles; what is said goes to log
 glsl() {
   {
     echo "#version $1"
-    cat "$shaders/ltc.glsl"
+    cat "$shaders/ltc.glsl" "$shaders/ltc_proxy.glsl"
     echo "$glsl_head void main() { colour = vec4(0.0); $2 }"
   } > "$work/test.frag"
   "$validator" "$work/test.frag" > "$work/log" 2>&1
 }
 hlsl() {
   {
-    cat "$shaders/ltc.hlsl"
+    cat "$shaders/ltc.hlsl" "$shaders/ltc_proxy.hlsl"
     echo "$hlsl_head float4 main(Surface s) : SV_Target { float4 colour = (float4)0.0; $1 return colour; }"
   } > "$work/test.hlsl"
   "$validator" -D -V -S frag -e main -o "$work/test.spv" "$work/test.hlsl" > "$work/log" 2>&1 || return 1
@@ -80,14 +105,14 @@ fail() {
 }
 
 for version in "330 core" "300 es"; do
-  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_isotropic $glsl_anisotropic"; do
+  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_proxy" "$glsl_isotropic $glsl_anisotropic $glsl_proxy"; do
     glsl "$version" "$body" || fail "GLSL $version does not compile"
   done
   # without these two the above would prove nothing
   glsl "$version" "LtcEntry e = ltcFetch(lobes, 0.4, 1.0);" && fail "GLSL $version: a wrong call compiles"
   glsl "$version" "colour = ltcFrame(normal, view);" && fail "GLSL $version: a wrong type compiles"
 done
-for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_isotropic $hlsl_anisotropic"; do
+for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_proxy" "$hlsl_isotropic $hlsl_anisotropic $hlsl_proxy"; do
   hlsl "$body" || fail "HLSL does not compile"
 done
 hlsl "LtcEntry e = ltcFetch(matrixTable, 0.4, 1.0);" && fail "HLSL: a wrong call compiles"
