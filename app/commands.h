@@ -23,6 +23,7 @@ struct CommandStatus {
 };
 
 void addFitCommand(CLI::App& app, CommandStatus& status);
+void addCheckGlCommand(CLI::App& app, CommandStatus& status);
 void addCompareCommand(CLI::App& app, CommandStatus& status);
 void addExportCommand(CLI::App& app, CommandStatus& status);
 void addParetoCommand(CLI::App& app, CommandStatus& status);

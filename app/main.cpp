@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   addScoreCommand(app, status);
   addCompareCommand(app, status);
   addExportCommand(app, status);
+  addCheckGlCommand(app, status);
   addParetoCommand(app, status);
   addReportCommand(app, status);
   addStabilityCommand(app, status);

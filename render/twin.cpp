@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "ltc/polygon.h"
+#include "ltc/sphere.h"
 
 namespace ltcfit {
 namespace {
@@ -34,9 +35,17 @@ bool turnToFront(const PolygonLight& light, std::vector<Eigen::Vector3d>& vertic
   return light.twoSided;
 }
 
-double lobeIntegral(const Ltc& lobe, std::span<const Eigen::Vector3d> vertices, HorizonClipping clipping) {
-  return clipping == HorizonClipping::kExact ? std::max(0.0, ltcPolygonIntegral(lobe, vertices))
-                                             : ltcPolygonIntegralByProxySphere(lobe, vertices);
+double lobeIntegral(const Ltc& lobe, std::span<const Eigen::Vector3d> vertices, HorizonClipping clipping,
+                    const SphereTable& spheres) {
+  switch (clipping) {
+    case HorizonClipping::kExact:
+      return std::max(0.0, ltcPolygonIntegral(lobe, vertices));
+    case HorizonClipping::kProxySphere:
+      return ltcPolygonIntegralByProxySphere(lobe, vertices);
+    case HorizonClipping::kProxySphereTable:
+      break;
+  }
+  return ltcPolygonIntegralBySphereTable(lobe, vertices, spheres);
 }
 
 TableEntry fetchAt(const Table& table, const SurfacePoint& point) {
@@ -49,7 +58,7 @@ TableEntry fetchAt(const Table& table, const SurfacePoint& point) {
 }
 
 Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, const Table& table,
-                             HorizonClipping clipping) {
+                             HorizonClipping clipping, const SphereTable& spheres) {
   const TableEntry entry = fetchAt(table, point);
   const bool usable = entry.invertible;  // else black, as the shader
   const Material& material = point.surface->material;
@@ -64,7 +73,7 @@ Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, cons
     double value = 0.0;
     if (material.diffuse > 0.0) value += material.diffuse * std::max(0.0, polygonIrradiance(vertices));
     for (Eigen::Vector3d& v : vertices) v = turn * v;
-    if (usable) value += reflectance * lobeIntegral(lobe, vertices, clipping);
+    if (usable) value += reflectance * lobeIntegral(lobe, vertices, clipping, spheres);
     sum += value * light.radiance;
   }
   return sum;
@@ -73,7 +82,15 @@ Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, cons
 }  // namespace
 
 std::string_view horizonClippingName(HorizonClipping clipping) {
-  return clipping == HorizonClipping::kExact ? "exact" : "proxy-sphere";
+  switch (clipping) {
+    case HorizonClipping::kExact:
+      return "exact";
+    case HorizonClipping::kProxySphere:
+      return "proxy-sphere";
+    case HorizonClipping::kProxySphereTable:
+      break;
+  }
+  return "proxy-sphere-table";
 }
 
 Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping, int threads) {
@@ -82,6 +99,7 @@ Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping
     if (std::find(channels.begin(), channels.end(), needed) == channels.end())
       throw std::invalid_argument(fmt::format("the table has no {}", needed));
   }
+  const SphereTable spheres;
   Film film(scene.camera.width, scene.camera.height);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : omp_get_max_threads())
   for (std::size_t row = 0; row < film.height; ++row) {
@@ -91,7 +109,7 @@ Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping
       film.kinds[pixel] = view.kind;
       if (view.kind == PixelKind::kLight) film.radiance[pixel] = scene.lights[view.light].radiance;
       if (view.kind == PixelKind::kSurface)
-        film.radiance[pixel] = shadeByTable(scene, view.point, table, clipping);
+        film.radiance[pixel] = shadeByTable(scene, view.point, table, clipping, spheres);
     }
   }
   return film;

@@ -12,12 +12,14 @@ namespace ltcfit {
 
 /// How a light that goes through the lobe's horizon is clipped there.
 enum class HorizonClipping {
-  kExact,        ///< edge by edge (ltc/polygon.h): what ltc.glsl does
-  kProxySphere,  ///< a sphere of the same vector form factor, by the closed fit of Hill and Heitz 2016
+  kExact,             ///< edge by edge (ltc/polygon.h): what ltc.glsl does
+  kProxySphere,       ///< a sphere of the same vector form factor, by the closed fit of Hill and Heitz 2016
+  kProxySphereTable,  ///< the same sphere, its form factor from a texture of 64 x 64, t2.w of the layout of
+                      ///< 2017
 };
-inline constexpr std::size_t kHorizonClippings = 2;
+inline constexpr std::size_t kHorizonClippings = 3;
 
-/// "exact", "proxy-sphere".
+/// "exact", "proxy-sphere", "proxy-sphere-table".
 std::string_view horizonClippingName(HorizonClipping clipping);
 
 /// Reflected radiance towards the camera. Each light adds its radiance times

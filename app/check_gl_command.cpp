@@ -1,0 +1,244 @@
+// ltcfit check-gl: an exported table in a real GL pipeline, against its double-precision twin and the truth.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/commands.h"
+#include "app/progress.h"
+#include "export/atomic_file.h"
+#include "export/read_table.h"
+#include "render/shading_check.h"
+#include "render/shading_files.h"
+#include "render/shading_json.h"
+
+namespace ltcfit::app {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+struct CheckGlArguments {
+  std::string table;
+  std::string against;
+  std::string output;
+  std::string light;
+  double alphaX = 0.0;
+  double alphaY = 0.0;
+  double angle = 0.0;
+  std::int64_t width = static_cast<std::int64_t>(ShadingCheckOptions{}.width);
+  std::int64_t height = static_cast<std::int64_t>(ShadingCheckOptions{}.height);
+  std::int64_t randomScenes = static_cast<std::int64_t>(ShadingCheckOptions{}.randomScenes);
+  std::int64_t samples = static_cast<std::int64_t>(ShadingCheckOptions{}.maxSamples);
+  std::int64_t seed = 1;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+
+  bool isCustom() const { return !light.empty() || alphaX > 0.0 || alphaY > 0.0 || angle != 0.0; }
+};
+
+std::string fileName(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+ShadingCheckOptions toOptions(const CheckGlArguments& a) {
+  ShadingCheckOptions o;
+  o.width = static_cast<std::size_t>(a.width);
+  o.height = static_cast<std::size_t>(a.height);
+  o.randomScenes = static_cast<std::size_t>(a.randomScenes);
+  o.maxSamples = static_cast<std::size_t>(a.samples);
+  o.seed = static_cast<std::uint64_t>(a.seed);
+  o.threads = a.threads;
+  if (!a.isCustom()) return o;
+  CustomScene custom;
+  if (!a.light.empty()) custom.light = lightShapeFromName(a.light);
+  // one alone is that of both directions
+  const double x = a.alphaX > 0.0 ? a.alphaX : a.alphaY;
+  const double y = a.alphaY > 0.0 ? a.alphaY : a.alphaX;
+  if (x > 0.0) custom.alpha = Eigen::Vector2d(x, y);
+  custom.angle = a.angle * kRadians;
+  o.custom = custom;
+  return o;
+}
+
+// Every option that a figure follows from.
+std::string commandOf(const CheckGlArguments& a) {
+  std::string out = fmt::format("ltcfit check-gl {}", fileName(a.table));
+  if (!a.against.empty()) out += fmt::format(" --against {}", fileName(a.against));
+  if (!a.light.empty()) out += fmt::format(" --light {}", a.light);
+  if (a.alphaX > 0.0) out += fmt::format(" --alpha-x {}", a.alphaX);
+  if (a.alphaY > 0.0) out += fmt::format(" --alpha-y {}", a.alphaY);
+  if (a.angle != 0.0) out += fmt::format(" --angle {}", a.angle);
+  out += fmt::format(" --width {} --height {}", a.width, a.height);
+  if (!a.isCustom()) out += fmt::format(" --random {}", a.randomScenes);
+  return out + fmt::format(" --samples {} --seed {}", a.samples, a.seed);
+}
+
+void printScene(const SceneCheck& s, bool compared) {
+  fmt::print("{:<18}{:>7.1f}{:>5.0f}  {:>9.5f}{:>10.6f}{:>7.1f}{:>10.6f}{}", s.check.scene.name, s.gl.psnr,
+             s.glFloor, s.error.rmse, s.error.relativeMse, s.error.psnr, s.referenceRmse,
+             s.resolved() ? ' ' : '~');
+  if (compared) fmt::print("{:>10.5f}{:>7.2f}", s.other->rmse, s.error.rmse / s.other->rmse);
+  if (!s.passed) {
+    fmt::print("  FAILED: {}", s.gl.nonFinite > 0 ? fmt::format("{} pixels are NaN", s.gl.nonFinite)
+                               : s.gl.pixels == 0 ? "nothing is seen"
+                               : s.gl.psnr < s.glFloor
+                                   ? "GL is not the twin"
+                                   : fmt::format("{} pixels show something else", s.gl.kindsDiffer));
+  }
+  fmt::print("\n");
+}
+
+void printCheck(const CheckGlArguments& a, const ShadingCheckOptions& options, const ShaderTable& table,
+                const ShadingCheck& check) {
+  const bool compared = !a.against.empty();
+  fmt::print("{}: {}\n{}\n\n", fileName(a.table), table.note, check.renderer);
+  fmt::print(
+      "GL against its double-precision twin (PSNR, dB, and what it must reach), and against the true light\n"
+      "(Monte Carlo; own = its own error, ~ where that is above a tenth of what it judges){}\n\n",
+      compared ? fmt::format(";\nother = RMSE of {}", fileName(a.against)) : "");
+  fmt::print("{:<18}{:>7}{:>5}  {:>9}{:>10}{:>7}{:>10} ", "", "PSNR", "min", "RMSE", "relMSE", "PSNR", "own");
+  if (compared) fmt::print("{:>10}{:>7}", "other", "ratio");
+  fmt::print("\n");
+  std::size_t failed = 0;
+  double worst = 1e300;
+  for (const SceneCheck& s : check.scenes) {
+    if (!s.random || !s.passed) printScene(s, compared);
+    if (!s.passed) ++failed;
+    if (s.random) worst = std::min(worst, s.gl.psnr);
+  }
+  const RandomSummary random = check.random();
+  if (random.scenes > 0) {
+    fmt::print("\n{} random scenes of seed {}: GL against the twin {:.1f} dB or more; mean RMSE {:.5f}",
+               random.scenes, options.seed, worst, random.rmse);
+    if (compared) {
+      fmt::print(", other {:.5f}, ratio {:.3f}; closer in {} ({:.1f} %)", random.otherRmse,
+                 random.rmse / random.otherRmse, random.closer,
+                 100.0 * static_cast<double>(random.closer) / static_cast<double>(random.scenes));
+    }
+    fmt::print("\nown error of their reference {:.6f} (RMS); a tenth or less of what it judges in {}\n",
+               random.referenceRmse, random.resolved);
+    fmt::print("clipping at the horizon, mean RMSE:");
+    for (std::size_t c = 0; c < kHorizonClippings; ++c)
+      fmt::print(" {} {:.5f}", horizonClippingName(static_cast<HorizonClipping>(c)), random.clipping[c]);
+    fmt::print("\n");
+    bool first = true;
+    for (const SceneCheck& s : check.scenes) {
+      if (!s.random || !s.lost()) continue;
+      if (first) fmt::print("\nrandom scenes where {} is closer:\n", fileName(a.against));
+      first = false;
+      fmt::print("  {:<18}{:.5f} against {:.5f}: {}\n", s.check.scene.name, s.error.rmse, s.other->rmse,
+                 s.explanation);
+    }
+  }
+  if (!check.frames.empty()) fmt::print("\nframe times, {} x {}:", kFrameWidth, kFrameHeight);
+  for (const FrameTime& frame : check.frames) fmt::print(" {} {:.1f} ms", frame.scene, 1e3 * frame.seconds);
+  fmt::print("\n{}\n", failed == 0 ? "all scenes passed" : fmt::format("{} scenes FAILED", failed));
+}
+
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!std::filesystem::is_directory(path))
+    throw InputError(fmt::format("--output {}: cannot make this folder{}{}", path, error ? ": " : "",
+                                 error ? error.message() : ""));
+  checkWritable((std::filesystem::path(path) / "shading.json").string());
+}
+
+int checkGlCommand(const CheckGlArguments& a) {
+  const ShadingCheckOptions options = toOptions(a);
+  const ShaderTable table = loadShaderTable(a.table);
+  if (table.isIsotropic() && options.custom && options.custom->alpha.x() != options.custom->alpha.y())
+    throw InputError(fmt::format("--alpha-x {} --alpha-y {}: {} is an isotropic table",
+                                 options.custom->alpha.x(), options.custom->alpha.y(), a.table));
+  std::optional<ShaderTable> against;
+  if (!a.against.empty()) {
+    against = loadShaderTable(a.against, &table.table);
+    if (against->isIsotropic() != table.isIsotropic())
+      throw InputError(
+          fmt::format("--against {}: of {} and {} only one is anisotropic", a.against, a.table, a.against));
+  }
+  if (!a.output.empty()) makeFolder(a.output);
+  ShadingCheck check;
+  {
+    Progress progress("check-gl", a.quiet);
+    check = runShadingCheck(table, against ? &*against : nullptr, options,
+                            [&](std::size_t done, std::size_t total) { progress.update(done, total); });
+  }
+  const nlohmann::ordered_json json =
+      shadingToJson({fileName(a.table), &table}, {fileName(a.against), against ? &*against : nullptr},
+                    options, check, commandOf(a));
+  const std::string text = json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  if (!a.output.empty()) {
+    const std::filesystem::path folder(a.output);
+    for (const ExportFile& file : shadingPictures(check, fileName(a.table), fileName(a.against)))
+      writeFileAtomically((folder / file.name).string(), file.bytes);
+    writeFileAtomically((folder / "shading.json").string(), text);
+  }
+  if (a.json) {
+    fmt::print("{}", text);
+  } else {
+    printCheck(a, options, table, check);
+  }
+  return check.passed() ? kExitOk : kExitQuality;
+}
+
+}  // namespace
+
+void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
+  CLI::App* const command = app.add_subcommand(
+      "check-gl", "Shade scenes with an exported table in OpenGL, and compare with the true light");
+  auto a = std::make_shared<CheckGlArguments>();
+  command
+      ->add_option("table", a->table, "The table: any file that ltcfit reads; textures are used as they are")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--against", a->against,
+          "Another table of the same kind, shaded in the same scenes; norm and Fresnel from the first "
+          "where it has none")
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", a->output,
+                   "Folder for pictures (PNG and EXR of each scene, contact sheets) and shading.json, which\n"
+                   "`ltcfit report --shading` takes")
+      ->type_name("DIR");
+  command->add_option("--light", a->light, "One scene alone, a sphere on the ground under this light")
+      ->check(CLI::IsMember({"quad", "star", "disk-as-polygon"}));
+  command->add_option("--alpha-x", a->alphaX, "One scene alone: GGX's alpha along the tangents, 0.0001..1")
+      ->check(CLI::Range(1e-4, 1.0));
+  command->add_option("--alpha-y", a->alphaY, "The same across them, 0.0001..1; one alone is both")
+      ->check(CLI::Range(1e-4, 1.0));
+  command->add_option("--angle", a->angle, "One scene alone: turns the tangents, degrees, -360..360")
+      ->check(CLI::Range(-360.0, 360.0));
+  command->add_option("--width", a->width, "Width of the pictures in pixels, 16..4096")
+      ->check(CLI::Range(std::int64_t{16}, std::int64_t{4096}))
+      ->capture_default_str();
+  command->add_option("--height", a->height, "Height, 16..4096")
+      ->check(CLI::Range(std::int64_t{16}, std::int64_t{4096}))
+      ->capture_default_str();
+  command->add_option("--random", a->randomScenes, "Number of random scenes, 48 x 48 pixels each, 0..10000")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{10000}))
+      ->capture_default_str();
+  command
+      ->add_option("--samples", a->samples,
+                   "Most samples of a pixel of the reference, for each light and strategy, 128..2^20")
+      ->check(CLI::Range(std::int64_t{128}, std::int64_t{1} << 20))
+      ->capture_default_str();
+  command->add_option("--seed", a->seed, "Seed of the random scenes and of the reference, 0..2^53")
+      ->check(CLI::Range(std::int64_t{0}, kLargestSeed))
+      ->capture_default_str();
+  command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the figures")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_flag("-q,--quiet", a->quiet, "No progress line");
+  command->add_flag("--json", a->json, "Print the JSON instead of the table");
+  command->callback([a, &status] { status.exitCode = checkGlCommand(*a); });
+}
+
+}  // namespace ltcfit::app

@@ -1,0 +1,160 @@
+#include "render/shading_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gl_renderer.h"
+#include "render/lost_scene.h"
+#include "render/reference.h"
+
+namespace ltcfit {
+namespace {
+
+// Frames are timed at these scenes, five times each.
+constexpr const char* kTimedScenes[] = {"rectangle", "plastic", "star", "several-lights", "brushed-spheres"};
+constexpr int kFrameRepeats = 5;
+
+// A pixel may show another thing in float32 than in double where an outline passes within 1e-6 of its centre.
+constexpr double kKindsShare = 0.002;
+
+// The reference is made as exact as a tenth of the smaller error that it judges, but no more exact than
+// this: errors below some 1e-4 are seen by nobody, and Monte Carlo pays for a digit a hundredfold.
+constexpr double kFirstTarget = 1e-3;
+constexpr double kLeastTarget = 2e-5;
+constexpr double kShare = 0.1;
+
+ReferenceFilm reference(const Scene& scene, const ShadingCheckOptions& options, double target) {
+  ReferenceOptions o;
+  o.maxSamples = std::max(options.maxSamples, o.minSamples);
+  o.targetRmse = target;
+  o.seed = options.seed;
+  o.threads = options.threads;
+  return renderReference(scene, o);
+}
+
+SceneCheck judge(const CheckScene& check, GlRenderer& gl, const ShaderTable& table, GlRenderer* otherGl,
+                 const ShadingCheckOptions& options) {
+  const Scene& scene = check.scene;
+  SceneCheck out;
+  out.check = check;
+  out.ltc = gl.render(scene);
+  const Film twin = renderTwin(scene, table.table, HorizonClipping::kExact, options.threads);
+  out.gl = pictureError(out.ltc, twin);
+  out.glFloor = isHalf(table) ? kHalfPsnrFloor : check.psnrFloor;
+  out.passed =
+      out.gl.psnr >= out.glFloor && out.gl.nonFinite == 0 && out.gl.pixels > 0 &&
+      static_cast<double>(out.gl.kindsDiffer) <= kKindsShare * static_cast<double>(out.ltc.radiance.size());
+  if (otherGl != nullptr) out.otherLtc = otherGl->render(scene);
+
+  const auto compare = [&](const Film& truth) {
+    out.error = pictureError(out.ltc, truth);
+    if (out.otherLtc) out.other = pictureError(*out.otherLtc, truth);
+    return out.other ? std::min(out.error.rmse, out.other->rmse) : out.error.rmse;
+  };
+  ReferenceFilm truth = reference(scene, options, kFirstTarget);
+  double target = std::max(kLeastTarget, 0.8 * kShare * compare(truth.film));
+  if (target < truth.ownRmse) {
+    truth = reference(scene, options, target);
+    // the first one's own error counts in what it judged: once more where that was much of it
+    const double smaller = std::max(kLeastTarget, 0.8 * kShare * compare(truth.film));
+    if (smaller < 0.7 * target && smaller < truth.ownRmse) {
+      truth = reference(scene, options, smaller);
+      compare(truth.film);
+    }
+  }
+  out.reference = truth.film;
+  out.referenceRmse = truth.ownRmse;
+  out.referenceSamples = truth.meanSamples;
+  if (out.lost()) out.explanation = explainLostScene(scene, out.ltc, *out.otherLtc, out.reference);
+  for (std::size_t c = 0; c < kHorizonClippings; ++c) {
+    const HorizonClipping clipping = static_cast<HorizonClipping>(c);
+    const Film film = clipping == HorizonClipping::kExact
+                          ? twin
+                          : renderTwin(scene, table.table, clipping, options.threads);
+    out.clipping[c] = pictureError(film, truth.film).rmse;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool SceneCheck::resolved() const {
+  const double judged = other ? std::min(error.rmse, other->rmse) : error.rmse;
+  return referenceRmse <= kShare * judged;
+}
+
+bool SceneCheck::closer() const {
+  return other && other->rmse - error.rmse > referenceRmse;
+}
+
+bool ShadingCheck::passed() const {
+  return !scenes.empty() &&
+         std::all_of(scenes.begin(), scenes.end(), [](const SceneCheck& s) { return s.passed; });
+}
+
+RandomSummary ShadingCheck::random() const {
+  RandomSummary sum;
+  for (const SceneCheck& s : scenes) {
+    if (!s.random) continue;
+    ++sum.scenes;
+    sum.rmse += s.error.rmse;
+    if (s.other) sum.otherRmse += s.other->rmse;
+    if (s.closer()) ++sum.closer;
+    if (s.resolved()) ++sum.resolved;
+    sum.referenceRmse += s.referenceRmse * s.referenceRmse;
+    for (std::size_t c = 0; c < kHorizonClippings; ++c) sum.clipping[c] += s.clipping[c];
+  }
+  if (sum.scenes == 0) return sum;
+  const double n = static_cast<double>(sum.scenes);
+  sum.rmse /= n;
+  sum.otherRmse /= n;
+  sum.referenceRmse = std::sqrt(sum.referenceRmse / n);
+  for (double& c : sum.clipping) c /= n;
+  return sum;
+}
+
+ShadingCheck runShadingCheck(const ShaderTable& table, const ShaderTable* other,
+                             const ShadingCheckOptions& options,
+                             const std::function<void(std::size_t, std::size_t)>& progress) {
+  const GlContext context;
+  GlRenderer gl(table);
+  std::optional<GlRenderer> otherGl;
+  if (other != nullptr) otherGl.emplace(*other);
+  GlRenderer* const against = otherGl ? &*otherGl : nullptr;
+
+  ShadingCheck out;
+  out.renderer = glRendererName();
+  std::vector<CheckScene> scenes;
+  const bool anisotropic = !table.table.isIsotropic();
+  if (options.custom) {
+    scenes.push_back({makeScene(*options.custom), 50.0, ""});
+  } else {
+    scenes = namedScenes(anisotropic);
+  }
+  for (CheckScene& check : scenes) {
+    check.scene.camera.width = options.width;
+    check.scene.camera.height = options.height;
+  }
+  const std::size_t randomScenes = options.custom ? 0 : options.randomScenes;
+  const std::size_t total = scenes.size() + randomScenes;
+  for (const CheckScene& check : scenes) {
+    progress(out.scenes.size(), total);
+    out.scenes.push_back(judge(check, gl, table, against, options));
+  }
+  for (std::size_t i = 0; i < randomScenes; ++i) {
+    progress(out.scenes.size(), total);
+    const Scene scene = randomScene(options.seed, i, anisotropic, options.randomSize);
+    out.scenes.push_back(judge({scene, 50.0, ""}, gl, table, against, options));
+    out.scenes.back().random = true;
+  }
+  for (const CheckScene& check : scenes) {
+    const bool timed = options.custom || std::find(std::begin(kTimedScenes), std::end(kTimedScenes),
+                                                   check.scene.name) != std::end(kTimedScenes);
+    if (timed)
+      out.frames.push_back(
+          {check.scene.name, gl.frameSeconds(check.scene, kFrameWidth, kFrameHeight, kFrameRepeats)});
+  }
+  return out;
+}
+
+}  // namespace ltcfit

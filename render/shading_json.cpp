@@ -1,0 +1,123 @@
+#include "render/shading_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "export/figure.h"
+#include "export/png.h"
+#include "render/pictures.h"
+
+namespace ltcfit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string base64Of(const Film& film) {
+  return toBase64(toPng(toPicture(film)));
+}
+
+Json tableToJson(const CheckedTable& table) {
+  if (table.table == nullptr) return nullptr;
+  return {{"name", table.name},
+          {"source", table.table->note},
+          {"isotropic", table.table->table.isIsotropic()},
+          {"precision", isHalf(*table.table) ? "half" : "float"}};
+}
+
+Json errorToJson(const PictureError& e) {
+  return {{"rmse", figure(e.rmse)},
+          {"relative_mse", figure(e.relativeMse)},
+          {"psnr", figure(e.psnr)},
+          {"largest", figure(e.largest)}};
+}
+
+Json clippingToJson(const std::array<double, kHorizonClippings>& clipping) {
+  Json out = Json::object();
+  for (std::size_t c = 0; c < kHorizonClippings; ++c)
+    out[std::string(horizonClippingName(static_cast<HorizonClipping>(c)))] = figure(clipping[c]);
+  return out;
+}
+
+Json picturesToJson(const SceneCheck& s) {
+  if (s.random && !s.lost()) return nullptr;
+  Json out{{"ltc", base64Of(s.ltc)},
+           {"reference", base64Of(s.reference)},
+           {"difference", base64Of(difference(s.ltc, s.reference, kDifferenceGain))}};
+  if (s.otherLtc) {
+    out["against"] = base64Of(*s.otherLtc);
+    out["against_difference"] = base64Of(difference(*s.otherLtc, s.reference, kDifferenceGain));
+  }
+  return out;
+}
+
+Json sceneToJson(const SceneCheck& s) {
+  const Scene& scene = s.check.scene;
+  const Eigen::Vector2d& alpha = scene.surfaces[0].material.alpha;
+  return {{"name", scene.name},
+          {"title", scene.title},
+          {"random", s.random},
+          {"loss", s.check.loss},
+          {"alpha", {figure(alpha.x()), figure(alpha.y())}},
+          {"gl",
+           {{"psnr", figure(s.gl.psnr)},
+            {"floor", figure(s.glFloor)},
+            {"largest", figure(s.gl.largest)},
+            {"non_finite", s.gl.nonFinite},
+            {"kinds_differ", s.gl.kindsDiffer},
+            {"pixels", s.gl.pixels}}},
+          {"passed", s.passed},
+          {"reference",
+           {{"rmse", figure(s.referenceRmse)},
+            {"samples", figure(s.referenceSamples)},
+            {"resolved", s.resolved()}}},
+          {"error", errorToJson(s.error)},
+          {"against", s.other ? errorToJson(*s.other) : Json()},
+          {"clipping", clippingToJson(s.clipping)},
+          {"explanation", s.explanation},
+          {"pictures", picturesToJson(s)}};
+}
+
+}  // namespace
+
+Json shadingToJson(const CheckedTable& table, const CheckedTable& against, const ShadingCheckOptions& options,
+                   const ShadingCheck& check, const std::string& command) {
+  Json out{{"format", "ltcfit-shading"},
+           {"version", 1},
+           {"command", command},
+           {"tool_version", LTCFIT_VERSION},
+           {"table", tableToJson(table)},
+           {"against", tableToJson(against)},
+           {"renderer", check.renderer},
+           {"options",
+            {{"width", options.width},
+             {"height", options.height},
+             {"random_scenes", options.randomScenes},
+             {"random_size", options.randomSize},
+             {"seed", options.seed},
+             {"max_samples", options.maxSamples}}},
+           {"passed", check.passed()}};
+  out["scenes"] = Json::array();
+  for (const SceneCheck& s : check.scenes) out["scenes"].push_back(sceneToJson(s));
+  const RandomSummary random = check.random();
+  out["random"] = nullptr;
+  if (random.scenes > 0) {
+    const bool compared = against.table != nullptr;
+    out["random"] = {{"scenes", random.scenes},
+                     {"rmse", figure(random.rmse)},
+                     {"against_rmse", compared ? figure(random.otherRmse) : Json()},
+                     {"closer", compared ? Json(random.closer) : Json()},
+                     {"resolved", random.resolved},
+                     {"reference_rmse", figure(random.referenceRmse)},
+                     {"clipping", clippingToJson(random.clipping)}};
+  }
+  out["cost"] = Json::array();
+  out["frames"] = Json::array();
+  for (const FrameTime& frame : check.frames) {
+    out["frames"].push_back({{"scene", frame.scene},
+                             {"seconds", figure(frame.seconds)},
+                             {"width", kFrameWidth},
+                             {"height", kFrameHeight}});
+  }
+  return out;
+}
+
+}  // namespace ltcfit
