@@ -331,6 +331,17 @@ int ShaderCost::specials() const {
   return sum;
 }
 
+int ShaderCost::expanded() const {
+  static const std::map<std::string, int> kLengths{{"atan2", 25}, {"atan", 15},    {"acos", 15}, {"asin", 15},
+                                                   {"pow", 3},    {"division", 2}, {"exp", 2}};
+  int sum = total();
+  for (const auto& [name, n] : special) {
+    const auto found = kLengths.find(name);
+    if (found != kLengths.end()) sum += n * (found->second - 1);
+  }
+  return sum;
+}
+
 ShaderCost shaderCost(const std::string& fragmentSource) {
   std::vector<std::uint32_t> module = compile(fragmentSource);
   optimize(&module);

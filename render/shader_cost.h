@@ -16,8 +16,7 @@ namespace ltcfit {
 /// Matrix times vector: its entries. cross 6, mix and clamp 2 a component, length a dot and a sqrt, normalize
 /// a dot, an inversesqrt and a product a component. Negation and abs are modifiers of operands and count
 /// nothing, nor do moves between registers and access to them. Special functions count 1 a component whatever
-/// they expand to, and are listed by name: atan of two arguments is some 25 operations on most GPUs, sqrt and
-/// inversesqrt one, a division two.
+/// they expand to, and are listed by name.
 struct ShaderCost {
   int fetches = 0;                     ///< texture fetches
   int arithmetic = 0;                  ///< scalar operations without the special ones and selects
@@ -28,6 +27,9 @@ struct ShaderCost {
   int specials() const;
   /// Sum of all of the above.
   int total() const { return fetches + arithmetic + selects + branches + specials(); }
+  /// The same with special functions that no GPU has as one instruction at what compilers make of them, an
+  /// estimate: atan of two arguments 25, atan, acos and asin 15, division and exp 2, pow 3.
+  int expanded() const;
 };
 
 /// Compiles GLSL (with its #version line, main() without arguments) for OpenGL 4.5 and counts. What does not

@@ -52,6 +52,8 @@ TEST(ShaderCost, NamesSpecialFunctions) {
   const ShaderCost c = cost("colour = vec4(sqrt(a.x), atan(a.y, b.y), inversesqrt(a.z), a.w / b.w);");
   EXPECT_EQ(c.special, (Special{{"atan2", 1}, {"division", 1}, {"inversesqrt", 1}, {"sqrt", 1}}));
   EXPECT_EQ(c.arithmetic, 0);
+  EXPECT_EQ(c.total(), 4);
+  EXPECT_EQ(c.expanded(), 1 + 25 + 1 + 2);
   const ShaderCost l = cost("colour = vec4(length(a.xyz));");
   EXPECT_EQ(l.special, (Special{{"sqrt", 1}}));
   EXPECT_EQ(l.arithmetic, 3);
