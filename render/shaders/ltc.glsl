@@ -124,8 +124,8 @@ vec3 ltcTransform(mat3 inverse, vec3 v) {
 
 // Half the angle between unit vectors a and b over the length of a x b, from m2 = |a + b|^2. With h half the
 // angle, |a + b| = 2 cos h and |a x b| = 2 sin h cos h, so that it is (h / sin h) / |a + b|: no cases, and no
-// atan. h / sin h is a polynomial in u = 1 - cos h, exact at 0, with a relative error below 7.4e-8 elsewhere
-// (least largest one, by Remez).
+// atan. h / sin h is a polynomial in u = 1 - cos h, exact at 0 and off by at most 7.4e-8 of it elsewhere, the
+// least that its degree can be (scripts/arc_polynomial.py).
 float ltcArc(float m2) {
   float r = inversesqrt(max(m2, 1e-37));
   float u = 1.0 - 0.5 * (m2 * r);
