@@ -17,6 +17,7 @@
 #include "report/measurement_files.h"
 #include "report/page.h"
 #include "report/report_json.h"
+#include "report/shading_file.h"
 
 namespace ltcfit::app {
 namespace {
@@ -28,6 +29,7 @@ struct ReportArguments {
   std::vector<std::string> tables;
   std::vector<std::string> against;
   std::vector<std::string> pareto;
+  std::vector<std::string> shading;
   std::string stability;
   std::string output = "report.html";
   std::string storedAs = "auto";
@@ -52,6 +54,7 @@ void checkOutputs(const ReportArguments& a) {
   const std::string json = jsonPath(a.output);
   if (json == a.output) throw InputError(a.output + ": the page needs another name: its JSON gets this one");
   std::vector<std::string> inputs = a.pareto;
+  inputs.insert(inputs.end(), a.shading.begin(), a.shading.end());
   if (!a.stability.empty()) inputs.push_back(a.stability);
   for (const std::vector<std::string>* paths : {&a.tables, &a.against}) {
     for (const std::string& path : *paths) {
@@ -143,12 +146,27 @@ Json readPareto(const ReportArguments& a) {
   return out;
 }
 
+// At most one file for each kind of table.
+Json readShading(const ReportArguments& a) {
+  Json out = Json::array();
+  for (const std::string& path : a.shading) {
+    Json file = shadingFromJson(readFile(path, kShadingBytes), path);
+    for (const Json& other : out)
+      if (other["table"]["isotropic"] == file["table"]["isotropic"])
+        throw InputError(fmt::format("{}: table: a second file about an {} table", path,
+                                     file["table"]["isotropic"].get<bool>() ? "isotropic" : "anisotropic"));
+    out.push_back(std::move(file));
+  }
+  return out;
+}
+
 // The same file again, from wherever the inputs lie: names without folders, no threads.
 std::string commandOf(const ReportArguments& a) {
   std::string out = "ltcfit report";
   for (const std::string& path : a.tables) out += " " + fileName(path);
   for (const std::string& path : a.against) out += " --against " + fileName(path);
   for (const std::string& path : a.pareto) out += " --pareto " + fileName(path);
+  for (const std::string& path : a.shading) out += " --shading " + fileName(path);
   if (!a.stability.empty()) out += " --stability " + fileName(a.stability);
   const ReportArguments standard;
   const auto option = [&](const char* name, const auto& value, const auto& usual) {
@@ -195,6 +213,7 @@ int report(const ReportArguments& a) {
   settings.storedAs = a.storedAs;
   settings.command = commandOf(a);
   Json out = reportHead(settings);
+  out["shading"] = readShading(a);
   out["pareto"] = readPareto(a);
   if (!a.stability.empty())
     out["stability"] = stabilityFromJson(readFile(a.stability, kMeasurementBytes), a.stability);
@@ -241,6 +260,13 @@ void addReportCommand(CLI::App& app, CommandStatus& status) {
   command
       ->add_option("--pareto", a->pareto,
                    "What `ltcfit pareto` wrote, to show error against run time; one for each kind of table")
+      ->type_name("FILE.json")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--shading", a->shading,
+          "The shading.json that `ltcfit check-gl -o` wrote: rendered scenes against the reference; one for "
+          "each kind of table")
       ->type_name("FILE.json")
       ->allow_extra_args(false);
   command->add_option("--stability", a->stability, "What `ltcfit stability` wrote")->type_name("FILE.json");

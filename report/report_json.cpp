@@ -250,6 +250,7 @@ Json reportHead(const ReportSettings& settings) {
             {"stored_as", settings.storedAs}}},
           {"metrics", metrics},
           {"tables", Json::array()},
+          {"shading", Json::array()},
           {"pareto", Json::array()},
           {"stability", nullptr}};
 }

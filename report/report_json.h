@@ -18,7 +18,7 @@ struct ReportSettings {
   std::string command;
 };
 
-/// All of the report but its tables, `pareto` and `stability` left empty for the caller.
+/// All of the report but its tables; `shading`, `pareto` and `stability` left empty for the caller.
 Json reportHead(const ReportSettings& settings);
 
 /// An element of "tables". `number` is its place there, a part of the names of the pictures; these go to
