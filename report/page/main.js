@@ -25,6 +25,7 @@ function build() {
   const parts = [
     verdictSection(report),
     ...report.tables.map((table, i) => tableSection(table, images, report.metrics, `table-${i}`)),
+    shadingSection(report.shading),
     paretoSection(report.pareto),
     stabilitySection(report.stability),
     metricSection(report.metrics),

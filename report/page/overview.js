@@ -132,6 +132,7 @@ function provenanceSection(report) {
     ];
   });
   const others = [
+    ...report.shading.map((shading) => [`Shading, ${shadingKind(shading)}`, shading]),
     ...report.pareto.map((pareto) => [`Error against run time, ${paretoKind(pareto)}`, pareto]),
     ...(report.stability ? [['Stability', report.stability]] : []),
   ].map(([title, part]) => [

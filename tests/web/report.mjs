@@ -20,6 +20,7 @@ import {
 } from './report_checks.mjs';
 import { fillPage } from './report_fill.mjs';
 import { samples } from './report_sample.mjs';
+import { shading } from './report_shading_checks.mjs';
 
 const [part, reportPath, sourceDir, buildWeb, chartsPath, chromiumPath, pictures] = process.argv.slice(2);
 
@@ -137,6 +138,18 @@ const damages = [
   ['rows not by their nearness to a limit', 'const all = worstFirst(stability);', 'const all = stability.rows;', rows],
   ['columns that do not sort', 'const sign = descending ? -1 : 1;', 'const sign = 0;', rows],
   ['a filter without effect', 'row.fitter === state.fitter)', 'true)', rows],
+  ['rendered scenes left out', 'shadingSection(report.shading),', '', standing],
+  ['pictures of the reference only', 'base64,${scene.pictures[key]}', 'base64,${scene.pictures.reference}', shading],
+  ['a title that is markup', "element('h5', {}, title)", "Object.assign(element('h5'), { innerHTML: title })", shading],
+  ['a failed scene that looks passed', 'if (!scene.passed) made', 'if (false) made', shading],
+  ['a ratio the wrong way round', '? error.rmse / against.rmse :', '? against.rmse / error.rmse :', shading],
+  ['a scene not resolved, unmarked', "reference.resolved ? '' : ' *'", "''", shading],
+  ['scenes left out where the other table is closer', 'const lost = scenes.filter(isCloser)', 'const lost = []', shading],
+  ['points drawn alike', 'holds: (scene) => isCloser(scene) === lost &&', 'holds: (scene) => lost &&', shading],
+  ['points that do not say why', '...(isCloser(scene) ? [', '...(false ? [', shading],
+  ['axes of different range', 'narrow ? 46 : 52, low, high', 'narrow ? 46 : 52, 0.9 * low, high', shading],
+  ['a picture that does not get larger', "button.addEventListener('click', () => open(0));", '', shading],
+  ['arrow keys that change no picture', 'show(current + step)', 'void step', shading],
   ['arrow keys without effect', 'readout.textContent = describe', 'void describe', keyboard],
   ['no dark colours', '@media screen and (prefers-color-scheme: dark) {', '@media (width: 1px) {', schemes],
   ['charts that keep their colours', "darkness.addEventListener('change', redrawSoon);", '', schemes],
@@ -149,11 +162,11 @@ async function goodPages(browser, work) {
     pages[name] = join(work, `${name}.html`);
     await writeFile(pages[name], await fillPage(sourceDir, chartsPath, make()));
   }
-  const all = [captions, standing, layout, keyboard, tooltips, selectors, captions, sliders, rows, schemes, print, standing, layout];
+  const all = [captions, standing, layout, keyboard, tooltips, selectors, captions, sliders, rows, shading, schemes, print, standing, layout];
   for (const [name, path] of Object.entries(pages)) {
     const found = [
       ...(await inspect(browser, path, 1280, all)),
-      ...(await inspect(browser, path, 390, [captions, standing, layout, tooltips, sliders, layout])),
+      ...(await inspect(browser, path, 390, [captions, standing, layout, tooltips, sliders, shading, layout])),
     ];
     for (const text of found) fail(`${name}: ${text}`);
     console.log(`${name}: ${found.length === 0 ? 'good' : `${found.length} problems`}`);

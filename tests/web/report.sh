@@ -22,12 +22,13 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 report=
 if [ "$part" = pages ]; then
-  # made-up results of `ltcfit pareto` and `ltcfit stability`: real ones take minutes
+  # made-up results of `ltcfit check-gl`, `ltcfit pareto` and `ltcfit stability`: real ones take minutes
   node "$web/report_files.mjs" "$work" || { echo "FAILED: sample files"; exit 1; }
   theirs=$build_web/node_modules/three/examples/jsm/lights/RectAreaLightTexturesLib.js
   report=$work/report.html
   # few samples: the page is tested here, not the figures
   "$ltcfit" report "$source_dir/data/ltc_iso.json" "$source_dir/data/ltc_aniso.json" --against "$theirs" \
+    --shading "$work/shading_iso.json" --shading "$work/shading_aniso.json" \
     --pareto "$work/pareto_iso.json" --pareto "$work/pareto_aniso.json" --stability "$work/stability.json" \
     --samples 256 --directions 8 --quads 16 --lights 16 --points 128 -o "$report" --quiet || { echo "FAILED: ltcfit report"; exit 1; }
 fi

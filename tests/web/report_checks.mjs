@@ -19,7 +19,7 @@ export async function standing(page) {
       const there = [...document.querySelectorAll(heading)].filter((e) => e.textContent.includes(title)).length;
       if (there < times) found.push(`${heading} "${title}" ${there} times, not ${times}`);
     };
-    const own = ['Verdicts', 'Error against run time', 'Stability', 'What the figures mean', 'Provenance'];
+    const own = ['Verdicts', 'Shading', 'Error against run time', 'Stability', 'What the figures mean', 'Provenance'];
     for (const title of [...report.tables.map((table) => table.name), ...own]) expectHeading('h2', title, 1);
     for (const title of ['Scores', 'Error maps', 'Smoothness between neighbours', 'Histograms', 'Lobes']) {
       expectHeading('h3', title, report.tables.length);
@@ -27,6 +27,7 @@ export async function standing(page) {
     for (const table of report.tables) expectHeading('h1', table.name, 1);
     const absent = [...document.querySelectorAll('.absent')].map((line) => line.textContent).join(' ');
     const missing = {
+      '--shading': report.shading.length === 0,
       '--pareto': report.pareto.length === 0,
       '--stability': report.stability === null,
       '--against': report.tables.some((table) => table.against.length === 0),
@@ -119,7 +120,13 @@ export async function standing(page) {
     for (const image of document.images) {
       if (!image.complete || image.naturalWidth === 0) found.push(`picture "${image.alt}" is not there`);
     }
-    const pictures = report.tables.flatMap((table) => table.lobes).flatMap((lobe) => lobe.images).length;
+    // of random scenes those where the other table is closer
+    const rendered = report.shading
+      .flatMap(({ scenes }) => scenes)
+      .filter(({ random, error, against }) => !random || (against && against.rmse < error.rmse))
+      .flatMap((scene) => Object.keys(scene.pictures ?? {}));
+    const pictures =
+      report.tables.flatMap((table) => table.lobes).flatMap((lobe) => lobe.images).length + rendered.length;
     if (document.images.length !== pictures) found.push(`${document.images.length} pictures, not ${pictures}`);
     for (const control of document.querySelectorAll('select, input')) {
       if (control.labels.length === 0 || !control.labels[0].textContent) found.push(`${control.id} has no label`);
@@ -166,7 +173,7 @@ export async function layout(page) {
       );
     document.querySelectorAll('.ticks').forEach((ticks) => apart([...ticks.children]));
     document.querySelectorAll('.legend').forEach((legend) => apart([...legend.children]));
-    apart([...document.querySelectorAll('.control, .chart, .legend, .colorbar, .pager, h2, h3, h4')]);
+    apart([...document.querySelectorAll('.control, .chart, .legend, .colorbar, .pager, .scene, h2, h3, h4')]);
     return found;
   });
 }

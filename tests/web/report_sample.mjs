@@ -1,6 +1,7 @@
 // Made-up reports with the shape of `ltcfit report`'s JSON, for what real tables do not show: null values, strange
 // names, missing parts. No figure in them is measured.
-import { deflateSync } from 'node:zlib';
+import { generator, picture } from './report_sample_pieces.mjs';
+import { plainShading, sampleShading } from './report_shading_sample.mjs';
 
 const metricUnits = {
   SW1: '',
@@ -19,15 +20,6 @@ const metrics = Object.entries(metricUnits).map(([name, unit]) => ({
   unit,
   meaning: `What ${name} measures, in a sentence.`,
 }));
-
-// A sequence that looks random and is the same in every run.
-function generator(seed) {
-  let state = seed >>> 0;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 32;
-  };
-}
 
 function summary(values) {
   const sorted = values.filter((value) => value !== null).sort((a, b) => a - b);
@@ -101,7 +93,7 @@ function lobe(t, index, tables, images) {
     ),
   );
   list.forEach((image, k) => {
-    images[image.id] = picture(k, index);
+    images[image.id] = `data:image/png;base64,${picture(k, index)}`;
   });
   const round = index % 2 === 0;
   return {
@@ -124,41 +116,6 @@ function lobe(t, index, tables, images) {
       },
     })),
   };
-}
-
-// A small blob as PNG, in grey.
-function picture(k, index, size = 64) {
-  const raw = Buffer.alloc(size * (size + 1));
-  for (let y = 0; y < size; y++) {
-    for (let x = 0; x < size; x++) {
-      const r = ((x - 32 - k) / (10 + index)) ** 2 + ((y - 30) / 14) ** 2;
-      raw[y * (size + 1) + 1 + x] = Math.round(
-        k > 0 && k % 2 === 0 ? 128 + 90 * (1 - r) * Math.exp(-r) : 255 * Math.exp(-r),
-      );
-    }
-  }
-  const crcTable = Array.from({ length: 256 }, (_, n) => {
-    for (let bit = 0; bit < 8; bit++) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
-    return n >>> 0;
-  });
-  const crc = (bytes) =>
-    (bytes.reduce((c, byte) => crcTable[(c ^ byte) & 255] ^ (c >>> 8), 0xffffffff) ^ 0xffffffff) >>> 0;
-  const chunk = (name, data) => {
-    const body = Buffer.concat([Buffer.from(name, 'latin1'), data]);
-    const length = Buffer.alloc(4);
-    const check = Buffer.alloc(4);
-    length.writeUInt32BE(data.length);
-    check.writeUInt32BE(crc(body));
-    return Buffer.concat([length, body, check]);
-  };
-  const header = Buffer.from([0, 0, 0, size, 0, 0, 0, size, 8, 0, 0, 0, 0]);
-  const png = Buffer.concat([
-    Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]),
-    chunk('IHDR', header),
-    chunk('IDAT', deflateSync(raw)),
-    chunk('IEND', Buffer.alloc(0)),
-  ]);
-  return `data:image/png;base64,${png.toString('base64')}`;
 }
 
 // options: name, against, holes, lobes
@@ -411,6 +368,7 @@ function report(tables, more = {}) {
     options: { seed: 1, samples: 4096, directions: 32, quads: 64, lights: 64, points: 512 },
     metrics,
     tables,
+    shading: [],
     pareto: [],
     stability: null,
     ...more,
@@ -429,7 +387,11 @@ export const samples = {
       }),
     ];
     return {
-      report: report(tables, { pareto: [samplePareto('iso'), samplePareto('aniso')], stability: sampleStability() }),
+      report: report(tables, {
+        shading: [sampleShading('isotropic'), sampleShading('anisotropic')],
+        pareto: [samplePareto('iso'), samplePareto('aniso')],
+        stability: sampleStability(),
+      }),
       images,
     };
   },
@@ -452,6 +414,13 @@ export const samples = {
     });
     for (const result of table.scores[0].results) result.metrics.SW1 = summary([null, null]);
     table.maps[table.maps.length - 3].values.fill(null);
-    return { report: report([table], { pareto: [samplePareto('aniso')], stability: sampleStability(0) }), images };
+    return {
+      report: report([table], {
+        shading: plainShading([strangeName, markupName]),
+        pareto: [samplePareto('aniso')],
+        stability: sampleStability(0),
+      }),
+      images,
+    };
   },
 };
