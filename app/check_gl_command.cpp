@@ -120,7 +120,7 @@ void printCheck(const CheckGlArguments& a, const ShadingCheckOptions& options, c
                  random.rmse / random.otherRmse, random.closer,
                  100.0 * static_cast<double>(random.closer) / static_cast<double>(random.scenes));
     }
-    fmt::print("\nown error of their reference {:.6f} (RMS); a tenth or less of what it judges in {}\n",
+    fmt::print("\nown error of their reference {:.6f} (mean); a tenth or less of what it judges in {}\n",
                random.referenceRmse, random.resolved);
     fmt::print("clipping at the horizon, mean RMSE:");
     for (std::size_t c = 0; c < kHorizonClippings; ++c)
@@ -222,7 +222,7 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--height", a->height, "Height, 16..4096")
       ->check(CLI::Range(std::int64_t{16}, std::int64_t{4096}))
       ->capture_default_str();
-  command->add_option("--random", a->randomScenes, "Number of random scenes, 48 x 48 pixels each, 0..10000")
+  command->add_option("--random", a->randomScenes, "Number of random scenes, 32 x 32 pixels each, 0..10000")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{10000}))
       ->capture_default_str();
   command

@@ -143,12 +143,14 @@ std::vector<CheckScene> isotropicScenes() {
   }
   {
     Scene s;
-    s.camera.position = Vector3d(0, -7.5, 1.6);
+    s.camera.position = Vector3d(0, -6.0, 1.2);
     s.camera.target = Vector3d(0, 0, 0.7);
-    const double roughness[] = {0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0};
-    for (int i = 0; i < 7; ++i) {
+    s.camera.verticalFov = 0.45;
+    const double roughness[] = {0.1, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1.0};
+    for (int i = 0; i < 8; ++i) {
       const double r = roughness[i];
-      s.surfaces.push_back(sphere(Vector3d(-2.4 + 0.8 * i, 0, 0.7), 0.37, glossy(r * r)));
+      s.surfaces.push_back(
+          sphere(Vector3d(-1.5 + i % 4, i < 4 ? 0.6 : -0.4, i < 4 ? 1.15 : 0.25), 0.44, glossy(r * r)));
     }
     s.lights = {
         makeLight(LightShape::kQuad, Vector3d(0, -2.0, 3.0), Vector3d(0, 1.0, -1.2), Vector2d(1.8, 0.5)),

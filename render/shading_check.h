@@ -29,9 +29,9 @@ struct ShadingCheckOptions {
   std::size_t width = 160;            ///< of named scenes, pixels
   std::size_t height = 120;
   std::size_t randomScenes = 256;
-  std::size_t randomSize = 48;       ///< pixels along each side
+  std::size_t randomSize = 32;       ///< pixels along each side
   std::uint64_t seed = 1;            ///< of random scenes and of the reference's samples
-  std::size_t maxSamples = 1 << 12;  ///< of each strategy and light at a pixel of the reference
+  std::size_t maxSamples = 1 << 16;  ///< of each strategy and light at a pixel of the reference
   int threads = 0;                   ///< 0: all cores. Does not change a figure but the frame times
 };
 

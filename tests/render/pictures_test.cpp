@@ -49,7 +49,7 @@ TEST(Difference, IsAbsoluteAmplifiedAndOnSurfacesOnly) {
 
 TEST(Letters, AllThatCaptionsUseAreDrawnAndDiffer) {
   std::set<std::array<std::uint8_t, kLetterHeight>> seen;
-  for (const char c : std::string("abcdefghijklmnopqrstuvwxyz0123456789.,:-+%()/")) {
+  for (const char c : std::string("abcdefghijklmnopqrstuvwxyz0123456789.,:-_+%()/")) {
     const auto rows = letterRows(c);
     EXPECT_NE(rows, letterRows(' ')) << c;
     EXPECT_TRUE(seen.insert(rows).second) << c << " looks like another";
