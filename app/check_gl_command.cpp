@@ -35,6 +35,7 @@ struct CheckGlArguments {
   std::int64_t samples = static_cast<std::int64_t>(ShadingCheckOptions{}.maxSamples);
   std::int64_t seed = 1;
   int threads = 0;
+  bool cost = false;
   bool quiet = false;
   bool json = false;
 
@@ -169,9 +170,10 @@ int checkGlCommand(const CheckGlArguments& a) {
     check = runShadingCheck(table, against ? &*against : nullptr, options,
                             [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
+  const std::vector<ShaderVariantCost> costs = shaderVariantCosts();
   const nlohmann::ordered_json json =
       shadingToJson({fileName(a.table), &table}, {fileName(a.against), against ? &*against : nullptr},
-                    options, check, commandOf(a));
+                    options, check, costs, commandOf(a));
   const std::string text = json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
   if (!a.output.empty()) {
     const std::filesystem::path folder(a.output);
@@ -183,6 +185,7 @@ int checkGlCommand(const CheckGlArguments& a) {
     fmt::print("{}", text);
   } else {
     printCheck(a, options, table, check);
+    if (a.cost) fmt::print("\n{}", formatShaderCosts(costs));
   }
   return check.passed() ? kExitOk : kExitQuality;
 }
@@ -236,6 +239,10 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the figures")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  command->add_flag(
+      "--cost", a->cost,
+      "Also print what each variant of the look-up costs: texture fetches and scalar operations,\n"
+      "counted in its optimised SPIR-V (shading.json has them always)");
   command->add_flag("-q,--quiet", a->quiet, "No progress line");
   command->add_flag("--json", a->json, "Print the JSON instead of the table");
   command->callback([a, &status] { status.exitCode = checkGlCommand(*a); });

@@ -76,10 +76,19 @@ Json sceneToJson(const SceneCheck& s) {
           {"pictures", picturesToJson(s)}};
 }
 
+Json costToJson(const ShaderVariantCost& c) {
+  Json special = Json::object();
+  for (const auto& [name, count] : c.cost.special) special[name] = count;
+  return {{"name", c.variant.name},    {"fetches", c.cost.fetches},   {"arithmetic", c.cost.arithmetic},
+          {"selects", c.cost.selects}, {"branches", c.cost.branches}, {"special", special},
+          {"total", c.cost.total()}};
+}
+
 }  // namespace
 
 Json shadingToJson(const CheckedTable& table, const CheckedTable& against, const ShadingCheckOptions& options,
-                   const ShadingCheck& check, const std::string& command) {
+                   const ShadingCheck& check, std::span<const ShaderVariantCost> costs,
+                   const std::string& command) {
   Json out{{"format", "ltcfit-shading"},
            {"version", 1},
            {"command", command},
@@ -110,6 +119,7 @@ Json shadingToJson(const CheckedTable& table, const CheckedTable& against, const
                      {"clipping", clippingToJson(random.clipping)}};
   }
   out["cost"] = Json::array();
+  for (const ShaderVariantCost& c : costs) out["cost"].push_back(costToJson(c));
   out["frames"] = Json::array();
   for (const FrameTime& frame : check.frames) {
     out["frames"].push_back({{"scene", frame.scene},

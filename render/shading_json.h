@@ -2,9 +2,10 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 
-#include "render/shader_cost.h"
+#include "render/shader_variants.h"
 #include "render/shading_check.h"
 
 namespace ltcfit {
@@ -20,6 +21,6 @@ struct CheckedTable {
 /// be null.
 nlohmann::ordered_json shadingToJson(const CheckedTable& table, const CheckedTable& against,
                                      const ShadingCheckOptions& options, const ShadingCheck& check,
-                                     const std::string& command);
+                                     std::span<const ShaderVariantCost> costs, const std::string& command);
 
 }  // namespace ltcfit
