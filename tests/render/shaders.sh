@@ -10,6 +10,7 @@ glsl_head='uniform sampler2D matrixTable;
 uniform sampler2D amplitudeTable;
 uniform sampler3D lobes;
 uniform sampler2D spheres;
+uniform sampler2D picture;
 uniform vec3 corners[LTC_MAX_VERTICES];
 in vec3 position;
 in vec3 normal;
@@ -44,10 +45,17 @@ glsl_proxy='LtcEntry fitted = ltcFetch(matrixTable, amplitudeTable, 0.2, dot(nor
     colour.rg += vec2(ltcProxySphere(f), ltcProxySphereTable(spheres, f));
   }
 '
+glsl_textured='LtcEntry lobe = ltcFetch(matrixTable, amplitudeTable, 0.4, dot(normal, view));
+  mat3 around = ltcFrame(normal, view);
+  colour.rgb += ltcLightColour(lobe.inverse, around * (corners[0] - position), around * (corners[1] - position),
+                               around * (corners[2] - position), around * (corners[3] - position), picture, 0.5,
+                               512.0);
+'
 hlsl_head='Texture2D matrixTable;
 Texture2D amplitudeTable;
 Texture3D lobes;
 Texture2D spheres;
+Texture2D picture;
 SamplerState bilinear;
 cbuffer Light { float4 corners[LTC_MAX_VERTICES]; };
 struct Surface { float3 position : P; float3 normal : N; float3 tangent : T; float3 view : V; };
@@ -80,19 +88,25 @@ hlsl_proxy='LtcEntry fitted = ltcFetch(matrixTable, amplitudeTable, bilinear, 0.
     colour.rg += float2(ltcProxySphere(f), ltcProxySphereTable(spheres, bilinear, f));
   }
 '
+hlsl_textured='LtcEntry lobe = ltcFetch(matrixTable, amplitudeTable, bilinear, 0.4, dot(s.normal, s.view));
+  float3x3 around = ltcFrame(s.normal, s.view);
+  colour.rgb += ltcLightColour(lobe.inverse, mul(around, corners[0].xyz - s.position),
+                               mul(around, corners[1].xyz - s.position), mul(around, corners[2].xyz - s.position),
+                               mul(around, corners[3].xyz - s.position), picture, bilinear, 0.5, 512.0);
+'
 
 # glsl VERSION BODY, hlsl BODY: whether a fragment shader with that body compiles; what is said goes to log
 glsl() {
   {
     echo "#version $1"
-    cat "$shaders/ltc.glsl" "$shaders/ltc_proxy.glsl"
+    cat "$shaders/ltc.glsl" "$shaders/ltc_proxy.glsl" "$shaders/ltc_textured.glsl"
     echo "$glsl_head void main() { colour = vec4(0.0); $2 }"
   } > "$work/test.frag"
   "$validator" "$work/test.frag" > "$work/log" 2>&1
 }
 hlsl() {
   {
-    cat "$shaders/ltc.hlsl" "$shaders/ltc_proxy.hlsl"
+    cat "$shaders/ltc.hlsl" "$shaders/ltc_proxy.hlsl" "$shaders/ltc_textured.hlsl"
     echo "$hlsl_head float4 main(Surface s) : SV_Target { float4 colour = (float4)0.0; $1 return colour; }"
   } > "$work/test.hlsl"
   "$validator" -D -V -S frag -e main -o "$work/test.spv" "$work/test.hlsl" > "$work/log" 2>&1 || return 1
@@ -105,14 +119,16 @@ fail() {
 }
 
 for version in "330 core" "300 es"; do
-  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_proxy" "$glsl_isotropic $glsl_anisotropic $glsl_proxy"; do
+  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_proxy" "$glsl_textured" "$glsl_isotropic $glsl_anisotropic $glsl_proxy"; do
     glsl "$version" "$body" || fail "GLSL $version does not compile"
   done
   # without these two the above would prove nothing
   glsl "$version" "LtcEntry e = ltcFetch(lobes, 0.4, 1.0);" && fail "GLSL $version: a wrong call compiles"
+  glsl "$version" "colour.rgb = ltcLightColour(mat3(1.0), view, view, view, view, lobes, 0.5, 1.0);" && fail \
+    "GLSL $version: a wrong texture compiles"
   glsl "$version" "colour = ltcFrame(normal, view);" && fail "GLSL $version: a wrong type compiles"
 done
-for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_proxy" "$hlsl_isotropic $hlsl_anisotropic $hlsl_proxy"; do
+for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_proxy" "$hlsl_textured" "$hlsl_isotropic $hlsl_anisotropic $hlsl_proxy"; do
   hlsl "$body" || fail "HLSL does not compile"
 done
 hlsl "LtcEntry e = ltcFetch(matrixTable, 0.4, 1.0);" && fail "HLSL: a wrong call compiles"
