@@ -27,6 +27,7 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status);
 void addCompareCommand(CLI::App& app, CommandStatus& status);
 void addExportCommand(CLI::App& app, CommandStatus& status);
 void addParetoCommand(CLI::App& app, CommandStatus& status);
+void addPrefilterCommand(CLI::App& app, CommandStatus& status);
 void addReportCommand(CLI::App& app, CommandStatus& status);
 void addScoreCommand(CLI::App& app, CommandStatus& status);
 void addStabilityCommand(CLI::App& app, CommandStatus& status);

@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
   addExportCommand(app, status);
   addCheckGlCommand(app, status);
   addParetoCommand(app, status);
+  addPrefilterCommand(app, status);
   addReportCommand(app, status);
   addStabilityCommand(app, status);
   try {
