@@ -196,6 +196,54 @@ def check_shader_includes(e, name):
     run("glslangValidator", "-D", "-V", "-S", "frag", "-e", "main", "t.hlsl", "-o", "t.spv")
 
 
+def read_mips(path):
+    """Metadata and levels of an EXR, by OpenImageIO."""
+    file = oiio.ImageInput.open(path)
+    levels = []
+    while file.seek_subimage(0, len(levels)):
+        pixels = file.read_image(0, len(levels), 0, 4, oiio.FLOAT)
+        levels.append(np.asarray(pixels, np.float32))
+    file.seek_subimage(0, 0)
+    metadata = json.loads(file.spec().get_string_attribute("ltcfit"))
+    kind = str(file.spec().format)
+    file.close()
+    return metadata, kind, levels
+
+
+def check_light_texture():
+    picture = np.random.default_rng(1).random((24, 32, 3), np.float32)
+    spec = oiio.ImageSpec(32, 24, 3, oiio.FLOAT)
+    out = oiio.ImageOutput.create("picture.exr")
+    out.open("picture.exr", spec)
+    out.write_image(picture)
+    out.close()
+    for precision, vk, dtype, texel in (("half", 97, np.float16, 8), ("float", 109, np.float32, 16)):
+        name = f"light texture {precision}"
+        for extension in ("exr", "dds", "ktx2"):
+            run(LTCFIT, "prefilter", "-q", "picture.exr", f"--{precision}", "-o", f"light_{precision}.{extension}")
+        metadata, kind, levels = read_mips(f"light_{precision}.exr")
+        check(f"{name} exr: levels, type and metadata", [level.shape for level in levels]
+              == [(64 >> l, 64 >> l, 4) for l in range(7)] and kind == precision and metadata["margin"] == 0.5)
+        check(f"{name} exr: alpha", all(bool(np.all(level[..., 3] == 1)) for level in levels))
+        # a constant would not tell; the broadest Gaussian is close to the picture's mean
+        check(f"{name} exr: mean", bool(np.all(np.abs(levels[-1][0, 0, :3] - picture.mean((0, 1))) < 0.03))
+              and float(levels[0].std()) > 0.05)
+        numbers = np.concatenate([level.ravel() for level in levels])
+        dds = open(f"light_{precision}.dds", "rb").read()
+        report = run("nvddsinfo", f"light_{precision}.dds")
+        check(f"{name} dds: header", "Mipmap count: 7\n" in report and "DDSCAPS_MIPMAP" in report
+              and "DDSD_MIPMAPCOUNT" in report and "Width: 64\n" in report)
+        check(f"{name} dds: numbers", same(np.frombuffer(dds[148:], dtype).astype(np.float32), numbers))
+        for options in ((), ("--uncompressed",)):
+            run(LTCFIT, "prefilter", "-q", "picture.exr", f"--{precision}", "-o", "light.ktx2", *options)
+            json.dump({"vkFormat": vk, "width": 64, "height": 64, "depth": 0, "layers": 0, "levels": 7,
+                       "supercompression": 0 if options else 2, "floats": [float(v) for v in numbers]},
+                      open("expected.json", "w"))
+            out = run("node", f"{SOURCE}/tests/web/ktx.mjs", "light.ktx2", "expected.json", WEB)
+            check(f"{name} ktx2 {' '.join(options)}", "values as expected" in out and "ltc-light-texture" in out)
+
+
+check_light_texture()
 for kind in ("iso", "aniso"):
     table = Expected(f"{SOURCE}/data/ltc_{kind}.json")
     packed, half = check_npy(table, kind)

@@ -2,7 +2,7 @@
 //   node ktx.mjs FILE.ktx2 EXPECTED.json BUILD_WEB
 // EXPECTED: { vkFormat, width, height, depth, layers, floats }: sizes as in the header, 0 where the header has 0;
 // "supercompression" and "keys" (key-values that must be there) if wanted. floats run as in the file: layer, slice, row,
-// column, channel; a file of halves must hold the nearest half of each. Exit code 1 and a line for each thing that differs.
+// column, channel, and with "levels" (their number) from the finest level on; a file of halves must hold the nearest half of each. Exit code 1 and a line for each thing that differs.
 import { readFile } from 'node:fs/promises';
 import { load } from './packages.mjs';
 import { fromHalf, toHalf } from './tables.mjs';
@@ -93,16 +93,19 @@ for (const [field, name] of Object.entries({ vkFormat: 'vkFormat', width: 'pixel
   if (field in wanted) expect(name, container[name], wanted[field]);
 }
 expect('faceCount', container.faceCount, 1);
-expect('levelCount', container.levelCount, 1);
+expect('levelCount', container.levelCount, wanted.levels ?? 1);
 const format = formats[container.vkFormat];
 if (!format) throw new Error(`vkFormat ${container.vkFormat} is not one of halves or floats`);
 expect('typeSize', container.typeSize, format.bits / 8);
 checkDescriptor(container.dataFormatDescriptor, format, isPacked);
 checkKeys(container.keyValue, wanted.keys ?? {});
-const [level] = container.levels;
-// a packed level may start anywhere, another at a multiple of the texel and of 4
+// a packed level may start anywhere, another at a multiple of the texel and of 4; the finest level lies last
 const texelBytes = format.channels * format.bits / 8;
-if (!isPacked) expect('offset of the level', level.levelData.byteOffset % Math.max(4, texelBytes), 0);
-checkValues(await inflate(level, container.supercompressionScheme), format, wanted.floats);
+const starts = container.levels.map(({ levelData }) => levelData.byteOffset);
+if (!isPacked) expect('offsets of the levels', starts.map((at) => at % Math.max(4, texelBytes)), starts.map(() => 0));
+expect('order of the levels', starts, [...starts].sort((a, b) => b - a));
+const inflated = [];
+for (const level of container.levels) inflated.push(Buffer.from(await inflate(level, container.supercompressionScheme)));
+checkValues(new Uint8Array(Buffer.concat(inflated)), format, wanted.floats);
 if (failures === 0) console.log(`${wanted.floats.length} values as expected`);
 process.exitCode = failures > 0 ? 1 : 0;
