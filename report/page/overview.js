@@ -25,6 +25,11 @@ function fillHeader(report) {
       table.against.length > 0 ? `, against ${table.against.join(', ')}` : null,
     ),
   );
+  facts.push(
+    ...report.shading.map((shading) =>
+      element('li', {}, `${shading.table.name}, rendered: `, verdictMark(shading.passed), `, ${agreementText(shading)}`),
+    ),
+  );
   document
     .getElementById('top')
     .append(

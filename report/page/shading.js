@@ -12,6 +12,9 @@ const clippingTitles = {
 
 const partText = (part, all) => `${countText(part)} of ${countText(all)}`;
 
+const agreementText = ({ scenes }) =>
+  `GL agrees with its double-precision twin in ${partText(scenes.filter(({ passed }) => passed).length, scenes.length)} scenes`;
+
 function shadingSummary(shading, named, random) {
   const { scenes, table, against, random: means } = shading;
   const failed = scenes.filter((scene) => !scene.passed);
@@ -20,8 +23,7 @@ function shadingSummary(shading, named, random) {
   const items = [
     [
       verdictMark(shading.passed),
-      ` The shader in GL agrees with its double-precision twin in ${partText(scenes.length - failed.length, scenes.length)} `,
-      `scenes; the smallest PSNR is ${decibels(lowest.gl.psnr)} dB (${lowest.name}, floor ${decibels(lowest.gl.floor)} dB).`,
+      ` The shader in ${agreementText(shading)}; the smallest PSNR is ${decibels(lowest.gl.psnr)} dB (${lowest.name}, floor ${decibels(lowest.gl.floor)} dB).`,
       failed.length > 0 ? ` It does not in ${failed.map(({ name }) => name).join(', ')}.` : null,
     ],
     [`Rendered by ${shading.renderer}.`],
@@ -31,7 +33,7 @@ function shadingSummary(shading, named, random) {
       `Against the Monte Carlo reference, the mean RMSE of ${table.name} over ${countText(means.scenes)} random scenes is `,
       `${numberText(means.rmse)}`,
       against
-        ? `; that of ${against.name} is ${numberText(means.against_rmse)}. The one is ${ratioText(means.rmse / means.against_rmse)} the other.`
+        ? `; that of ${against.name} is ${numberText(means.against_rmse)}. The ratio is ${numberText(means.against_rmse > 0 ? means.rmse / means.against_rmse : null)}.`
         : '.',
     ]);
     if (against) items.push([`${table.name} is closer in ${partText(means.closer, means.scenes)} random scenes.`]);
@@ -85,7 +87,7 @@ function sceneTable(shading, scenes) {
           numberText(against?.rmse),
           numberText(against?.relative_mse),
           decibels(against?.psnr),
-          ratioText(against?.rmse > 0 ? error.rmse / against.rmse : null),
+          ratioCell(error.rmse, against?.rmse),
         ]
       : []),
     `${numberText(reference.rmse)}${reference.resolved ? '' : ' *'}`,
@@ -121,6 +123,7 @@ function namedScenes(shading, scenes) {
         sceneCard(
           shading,
           scene,
+          `${scene.name}: ${scene.title}`,
           scene.loss ? `GL against its twin: ${decibels(scene.gl.psnr)} dB; ${scene.loss}.` : null,
           closerText(shading, scene),
         ),
@@ -138,7 +141,7 @@ function randomScenes(shading, scenes, id) {
   }
   const { table, against } = shading;
   made.append(
-    note(`Each point is a scene. Below the diagonal ${table.name} is closer to the reference, above it ${against.name}.`),
+    note(`Each point is a scene: a random light, view and material. Below the diagonal ${table.name} is closer to the reference, above it ${against.name}.`),
   );
   addScatter(made, `${id}-scatter`, shading, scenes);
   const lost = scenes.filter(isCloser).sort((a, b) => b.error.rmse / b.against.rmse - a.error.rmse / a.against.rmse);
@@ -152,6 +155,7 @@ function randomScenes(shading, scenes, id) {
             sceneCard(
               shading,
               scene,
+              scene.name,
               `RMSE ${numberText(scene.error.rmse)}, of the other ${numberText(scene.against.rmse)}: ` +
                 `${ratioText(scene.error.rmse / scene.against.rmse)}; alpha ${alphaText(scene.alpha)}.` +
                 `${scene.reference.resolved ? '' : ` Own error of the reference ${numberText(scene.reference.rmse)}: ${unresolvedText}.`}`,
@@ -235,9 +239,10 @@ function costPart({ cost, frames, renderer }) {
     );
   if (frames.length > 0)
     parts.push(
+      note(`Frame times on ${renderer}.`),
       scrolling(
         tableOf(
-          `Frame times on ${renderer}`,
+          'Frame times',
           [
             { title: 'Scene', head: true },
             { title: 'Pixels', number: true },

@@ -7,9 +7,9 @@ function pictureTexts(shading) {
   return [
     ['ltc', own, `with the LTCs of ${own}`],
     ['reference', 'reference', 'by Monte Carlo'],
-    ['difference', 'its difference \u00d7 5', `difference of ${own} to the reference, times 5`],
+    ['difference', `difference \u00d7 5, ${own}`, `difference of ${own} to the reference, times 5`],
     ['against', other, `with the LTCs of ${other}`],
-    ['against_difference', 'its difference \u00d7 5', `difference of ${other} to the reference, times 5`],
+    ['against_difference', `difference \u00d7 5, ${other}`, `difference of ${other} to the reference, times 5`],
   ];
 }
 
@@ -64,9 +64,8 @@ function openViewer(title, pictures, first) {
   show(first);
 }
 
-// A scene: its title, its pictures in a row, and what is to be said about it.
-function sceneCard(shading, scene, ...texts) {
-  const title = `${scene.name}: ${scene.title}`;
+// A scene: its pictures in a row, and what is to be said about it.
+function sceneCard(shading, scene, title, ...texts) {
   const pictures = picturesOf(shading, scene);
   const open = (i) => openViewer(title, pictures, i);
   const figures = pictures.map(({ source, caption, alt }, i) => {

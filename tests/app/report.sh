@@ -64,6 +64,20 @@ pareto = {'format': 'ltcfit-pareto', 'version': 1, 'table': 'iso', 'command': 'c
   'defaults': []}
 stability = {'format': 'ltcfit-stability', 'version': 1, 'command': 'c', 'tool_version': '0', 'set': 's', 'limits': [],
   'starts': [], 'seeds': [], 'summary': [], 'rows': [], 'findings': []}
+import base64, struct, zlib
+def chunk(name, data):
+    return struct.pack('>I', len(data)) + name + data + struct.pack('>I', zlib.crc32(name + data))
+png = base64.b64encode(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', 2, 1, 8, 0, 0, 0, 0)) +
+    chunk(b'IDAT', zlib.compress(b'\0\x40\x80')) + chunk(b'IEND', b'')).decode()
+shading = {'format': 'ltcfit-shading', 'version': 1, 'command': 'c', 'tool_version': '0',
+  'table': {'name': '</script>', 'source': 's', 'isotropic': True, 'precision': 'half'}, 'against': None, 'renderer': 'r', 'options': {},
+  'passed': False, 'scenes': [{'name': 'a', 'title': '</script>', 'random': False, 'loss': '', 'alpha': [1, 1],
+    'gl': {'psnr': 40, 'floor': 50, 'largest': 1, 'non_finite': 0, 'kinds_differ': 0, 'pixels': 1}, 'passed': False,
+    'reference': {'rmse': 1e-5, 'samples': 1, 'resolved': True}, 'error': {'rmse': 0.01, 'relative_mse': 0, 'psnr': 40, 'largest': 1},
+    'against': None, 'clipping': None, 'explanation': '', 'pictures': {'ltc': png, 'reference': png, 'difference': png}}],
+  'random': None, 'cost': [], 'frames': []}
+json.dump(shading, open('shading.json', 'w'))
+json.dump({**shading, 'table': {**shading['table'], 'isotropic': False}}, open('brushed.json', 'w'))
 json.dump(pareto, open('pareto.json', 'w'))
 json.dump(stability, open('stability.json', 'w'))
 text = open('pareto.json').read()
@@ -78,11 +92,15 @@ bad('defaults.json', pareto, lambda t: t['defaults'].append({'command': 'x', 'se
 def forever(t):
     t['settings'][0]['cpu_seconds'].update(median=1e300, high=1e300)
 bad('forever.json', pareto, forever)
+bad('passed.json', shading, lambda t: t['scenes'][0].update(passed=True))
+bad('picture.json', shading, lambda t: t['scenes'][0]['pictures'].update(ltc='</script>'))
 bad('rows.json', stability, lambda t: t['rows'].append(entry))
 PY
-"$ltcfit" report iso.json $small --pareto pareto.json --stability stability.json -o full.html || fail "pareto and stability"
+"$ltcfit" report iso.json $small --shading shading.json --shading brushed.json --pareto pareto.json --stability stability.json -o full.html || fail "shading, pareto and stability"
 python3 -c "
 import json; r = json.load(open('full.json'))
+assert r['shading'] == [json.load(open(f)) for f in ('shading.json', 'brushed.json')]
+assert '--shading shading.json --shading brushed.json' in r['command']
 assert r['pareto'] == [json.load(open('pareto.json'))] and r['stability'] == json.load(open('stability.json'))" || fail "files are changed on their way"
 [ "$(grep -o '</script>' full.html | wc -l)" = "$(grep -o '</script>' one.html | wc -l)" ] || fail "a name ends the script"
 
@@ -116,6 +134,10 @@ expect "defaults.json: defaults.0..setting is not one of the 1 settings" iso.jso
 expect "forever.json: settings.0..cpu_seconds.median is 1e+300, not a time within 1e-09..1e+06 s" iso.json --pareto forever.json -o x.html
 expect "pareto.json: table: a second file about 'iso'" iso.json --pareto pareto.json --pareto pareto.json -o x.html
 expect "stability.json: not what is asked for: format is not \"ltcfit-pareto\"" iso.json --pareto stability.json -o x.html
+expect "passed.json: scenes.0..passed is true, with a PSNR of 40 dB, a floor of 50 dB" iso.json --shading passed.json -o x.html
+expect "picture.json: scenes.0..pictures.ltc is not base64" iso.json --shading picture.json -o x.html
+expect "shading.json: table: a second file about an isotropic table" iso.json --shading shading.json --shading shading.json -o x.html
+expect "shading.json: would overwrite this input" iso.json --shading shading.json -o shading.html
 expect "rows.json: rows.0..fitter is missing" iso.json --stability rows.json -o x.html
 expect "iso.json: would overwrite this input" iso.json -o iso.html
 expect "second.json: would overwrite this input" iso.json --against second.json -o ./second.html

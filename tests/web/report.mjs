@@ -142,7 +142,7 @@ const damages = [
   ['pictures of the reference only', 'base64,${scene.pictures[key]}', 'base64,${scene.pictures.reference}', shading],
   ['a title that is markup', "element('h5', {}, title)", "Object.assign(element('h5'), { innerHTML: title })", shading],
   ['a failed scene that looks passed', 'if (!scene.passed) made', 'if (false) made', shading],
-  ['a ratio the wrong way round', '? error.rmse / against.rmse :', '? against.rmse / error.rmse :', shading],
+  ['a ratio the wrong way round', 'ratioCell(error.rmse, against?.rmse)', 'ratioCell(against?.rmse, error.rmse)', shading],
   ['a scene not resolved, unmarked', "reference.resolved ? '' : ' *'", "''", shading],
   ['scenes left out where the other table is closer', 'const lost = scenes.filter(isCloser)', 'const lost = []', shading],
   ['points drawn alike', 'holds: (scene) => isCloser(scene) === lost &&', 'holds: (scene) => lost &&', shading],
