@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "tests/render/gl.h"
 
@@ -22,8 +23,10 @@ TEST(GlContext, SaysWhatItIsAndMayFollowAnother) {
     EXPECT_NE(name.find(", "), std::string::npos);
     EXPECT_EQ(name.find("unknown"), std::string::npos) << name;
   }
-  const GlContext second;
+  auto second = std::make_unique<GlContext>();
   const GlContext third;
+  EXPECT_EQ(glRendererName(), name);
+  second.reset();
   EXPECT_EQ(glRendererName(), name);
   std::printf("%s\n", name.c_str());
 }
