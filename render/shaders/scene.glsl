@@ -85,8 +85,10 @@ float hitLight(int light, vec3 direction) {
   for (int i = 0; i < l.vertices; ++i) {
     v = lightVertices[first + i];
     vec2 to = vec2(v[l.plane.x], v[l.plane.y]);
-    if ((from.y > at.y) != (to.y > at.y) && at.x < from.x + (at.y - from.y) / (to.y - from.y) * (to.x - from.x))
-      inside = !inside;
+    if ((from.y > at.y) != (to.y > at.y)) {
+      float crossing = from.x + (at.y - from.y) / (to.y - from.y) * (to.x - from.x);
+      if (at.x < crossing) inside = !inside;
+    }
     from = to;
   }
   return inside ? t : kFar;
@@ -177,7 +179,8 @@ void main() {
   int hit = -1;
   for (int i = 0; i < SURFACES; ++i) {
 #if defined(RECTANGLES) && defined(SPHERES)
-    float t = surfaces[i].radius > 0.0 ? hitSphere(surfaces[i], direction) : hitRectangle(surfaces[i], direction);
+    bool isSphere = surfaces[i].radius > 0.0;
+    float t = isSphere ? hitSphere(surfaces[i], direction) : hitRectangle(surfaces[i], direction);
 #elif defined(SPHERES)
     float t = hitSphere(surfaces[i], direction);
 #else
