@@ -48,6 +48,27 @@ GlObject compile(GLenum stage, std::span<const std::string_view> texts, std::str
   throw GlError(fmt::format("OpenGL: {} does not compile: {}", name, log.data()));
 }
 
+void requireFloatFilter() {
+  if (epoxy_is_desktop_gl() || epoxy_has_gl_extension("GL_OES_texture_float_linear")) return;
+  throw GlError(
+      "OpenGL: this OpenGL ES does not filter float textures (no GL_OES_texture_float_linear); export the "
+      "table with --precision half");
+}
+
+// A new texture, bound, clamped to the edge.
+GlObject boundTexture(GLenum target, GLint minify) {
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  GlObject texture(id, [](unsigned name) { glDeleteTextures(1, &name); });
+  glBindTexture(target, id);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTexParameteri(target, axis, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, minify);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  return texture;
+}
+
 }  // namespace
 
 void checkGl(std::string_view what) {
@@ -79,21 +100,9 @@ GlObject makeProgram(std::span<const std::string_view> vertex, std::span<const s
 
 GlObject makeTexture(const Image& image) {
   const bool half = image.precision == Precision::kHalf;
-  if (!half && !epoxy_is_desktop_gl() && !epoxy_has_gl_extension("GL_OES_texture_float_linear")) {
-    throw GlError(
-        "OpenGL: this OpenGL ES does not filter float textures (no GL_OES_texture_float_linear); export the "
-        "table with --precision half");
-  }
-  GlObject texture(0, nullptr);
-  GLuint id = 0;
-  glGenTextures(1, &id);
-  texture = GlObject(id, [](unsigned name) { glDeleteTextures(1, &name); });
+  if (!half) requireFloatFilter();
   const GLenum target = image.depth > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
-  glBindTexture(target, id);
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTexParameteri(target, axis, GL_CLAMP_TO_EDGE);
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    glTexParameteri(target, filter, GL_LINEAR);
+  GlObject texture = boundTexture(target, GL_LINEAR);
   const bool pair = image.components == 2;
   const GLint format = half ? (pair ? GL_RG16F : GL_RGBA16F) : (pair ? GL_RG32F : GL_RGBA32F);
   const GLenum order = pair ? GL_RG : GL_RGBA;
@@ -104,13 +113,32 @@ GlObject makeTexture(const Image& image) {
   const auto width = static_cast<GLsizei>(image.width);
   const auto height = static_cast<GLsizei>(image.height);
   const auto depth = static_cast<GLsizei>(image.depth);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   if (target == GL_TEXTURE_3D) {
     glTexImage3D(target, 0, format, width, height, depth, 0, order, type, bytes.data());
   } else {
     glTexImage2D(target, 0, format, width, height, 0, order, type, bytes.data());
   }
   checkGl(fmt::format("a texture of {} x {} x {}", width, height, depth));
+  return texture;
+}
+
+GlObject makeTexture(const PrefilteredTexture& light) {
+  requireFloatFilter();
+  GlObject texture = boundTexture(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(light.levels.size()) - 1);
+  for (std::size_t l = 0; l < light.levels.size(); ++l) {
+    const PrefilteredLevel& level = light.levels[l];
+    std::vector<float> values;
+    values.reserve(level.texels.size() * 4);
+    for (const Eigen::Vector3d& texel : level.texels) {
+      const Eigen::Vector3f t = texel.cast<float>();
+      values.insert(values.end(), {t.x(), t.y(), t.z(), 1.0f});
+    }
+    const auto size = static_cast<GLsizei>(level.size);
+    glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(l), GL_RGBA32F, size, size, 0, GL_RGBA, GL_FLOAT,
+                 values.data());
+    checkGl(fmt::format("level {} of a light's texture, {} x {}", l, size, size));
+  }
   return texture;
 }
 

@@ -1,4 +1,4 @@
-// OpenGL objects that delete themselves, made for a renderer without blending, depth and mipmaps.
+// OpenGL objects that delete themselves, made for a renderer without blending and depth.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "export/image.h"
+#include "render/prefilter.h"
 
 namespace ltcfit {
 
@@ -46,6 +47,9 @@ GlObject makeProgram(std::span<const std::string_view> vertex, std::span<const s
 /// A 2D texture, or a 3D one where the image has a depth: 2 or 4 components in the image's precision, linear
 /// filtering, clamped to the edge, one level. Throws GlError where the context cannot filter such textures.
 GlObject makeTexture(const Image& image);
+
+/// A light's texture as ltc_textured.glsl reads it: RGBA32F, all levels, trilinear, clamped to the edge.
+GlObject makeTexture(const PrefilteredTexture& light);
 
 GlObject makeVertexArray();
 

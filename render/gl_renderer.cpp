@@ -16,7 +16,12 @@
 namespace ltcfit {
 namespace {
 
-void check(const Scene& scene, bool isotropicTable) {
+bool isTextured(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const PolygonLight& l) { return l.texture >= 0; });
+}
+
+void check(const Scene& scene, bool isotropicTable, std::size_t textures) {
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument(fmt::format("scene '{}': {}", scene.name, what));
   };
@@ -27,6 +32,10 @@ void check(const Scene& scene, bool isotropicTable) {
   for (const PolygonLight& light : scene.lights) {
     if (light.vertices.size() < 3 || light.vertices.size() > kMaxLightVertices)
       fail(fmt::format("a light of {} vertices, not 3 to {}", light.vertices.size(), kMaxLightVertices));
+    if (light.texture < 0) continue;
+    if (static_cast<std::size_t>(light.texture) >= textures)
+      fail(fmt::format("a light of texture {}, of {} given", light.texture, textures));
+    if (light.vertices.size() != 4) fail("a textured light that is no rectangle");
   }
   if (isotropicTable && !scene.isIsotropic()) fail("anisotropic materials need an anisotropic table");
 }
@@ -37,7 +46,7 @@ std::size_t mostVertices(const Scene& scene) {
   return most;
 }
 
-std::string sceneDefines(const Scene& scene) {
+std::string sceneDefines(const Scene& scene, std::size_t textures) {
   std::string text = fmt::format("#define SURFACES {}\n#define LIGHTS {}\n#define LTC_MAX_VERTICES {}\n",
                                  scene.surfaces.size(), scene.lights.size(), mostVertices(scene));
   const auto anySurface = [&](auto has) {
@@ -54,6 +63,7 @@ std::string sceneDefines(const Scene& scene) {
   define("DIFFUSE", anySurface([](const Surface& s) { return s.material.diffuse > 0.0; }));
   define("QUADS", anyLight([](const PolygonLight& l) { return l.vertices.size() == 4; }));
   define("POLYGONS", anyLight([](const PolygonLight& l) { return l.vertices.size() != 4; }));
+  if (isTextured(scene)) text += fmt::format("#define TEXTURES {}\n", textures);
   define("ONE_SIDED", anyLight([](const PolygonLight& l) { return !l.twoSided; }));
   define("TWO_SIDED", anyLight([](const PolygonLight& l) { return l.twoSided; }));
   return text;
@@ -116,6 +126,7 @@ void setLight(const Uniforms& uniforms, const PolygonLight& light, std::size_t i
   set("vertices", static_cast<int>(v.size()));
   uniforms.set(fmt::format("lights[{}].plane", index), (largest + 1) % 3, (largest + 2) % 3);
   set("twoSided", light.twoSided ? 1 : 0);
+  set("texture", light.texture);
   for (std::size_t i = 0; i < v.size(); ++i)
     uniforms.set(fmt::format("lightVertices[{}]", index * stride + i), v[i]);
 }
@@ -148,15 +159,28 @@ GlRenderer::GlRenderer(const ShaderTable& table, std::string ltcGlsl)
   for (const Image& image : table.textures) textures_.push_back(makeTexture(image));
 }
 
+void GlRenderer::useTextures(const std::vector<PrefilteredTexture>& textures) {
+  if (textures.size() > kMaxLightTextures)
+    throw std::invalid_argument(fmt::format("{} textures, not 0 to {}", textures.size(), kMaxLightTextures));
+  lightTextures_.clear();
+  lightTextureFetch_.clear();
+  for (const PrefilteredTexture& texture : textures) {
+    lightTextures_.push_back(makeTexture(texture));
+    lightTextureFetch_.emplace_back(texture.margin, texture.lodScale);
+  }
+}
+
 // Makes the program of the scene current, with its uniforms and the textures.
 void GlRenderer::prepare(const Scene& scene, std::size_t width, std::size_t height, bool forDisplay) {
-  check(scene, isotropic_);
-  const std::string defines = tableDefines_ + sceneDefines(scene) + (forDisplay ? "#define DISPLAY\n" : "");
+  check(scene, isotropic_, lightTextures_.size());
+  const std::string defines =
+      tableDefines_ + sceneDefines(scene, lightTextures_.size()) + (forDisplay ? "#define DISPLAY\n" : "");
   auto program = programs_.find(defines);
   if (program == programs_.end()) {
     const std::string_view version = epoxy_is_desktop_gl() ? "#version 330 core\n" : "#version 300 es\n";
     const std::array<std::string_view, 2> vertex{version, shaderText("picture.glsl")};
-    const std::array<std::string_view, 4> fragment{version, defines, ltcGlsl_, shaderText("scene.glsl")};
+    const std::array<std::string_view, 5> fragment{version, defines, ltcGlsl_,
+                                                   shaderText("ltc_textured.glsl"), shaderText("scene.glsl")};
     program = programs_.emplace(defines, makeProgram(vertex, fragment, "scene.glsl")).first;
   }
   const unsigned id = program->second.id();
@@ -170,6 +194,12 @@ void GlRenderer::prepare(const Scene& scene, std::size_t width, std::size_t heig
   for (std::size_t t = 0; t < textures_.size(); ++t) {
     glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + t));
     glBindTexture(isotropic_ ? GL_TEXTURE_2D : GL_TEXTURE_3D, textures_[t].id());
+  }
+  for (std::size_t t = 0; t < lightTextures_.size(); ++t) {
+    glActiveTexture(static_cast<GLenum>(GL_TEXTURE2 + t));
+    glBindTexture(GL_TEXTURE_2D, lightTextures_[t].id());
+    uniforms.set(fmt::format("pictures[{}]", t), static_cast<int>(2 + t));
+    uniforms.set(fmt::format("pictureFetch[{}]", t), lightTextureFetch_[t]);
   }
   uniforms.set("lobes", 0);
   uniforms.set("matrixTable", 0);

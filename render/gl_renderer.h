@@ -8,19 +8,27 @@
 
 #include "render/film.h"
 #include "render/gl_objects.h"
+#include "render/prefilter.h"
 #include "render/scene.h"
 #include "render/shader_table.h"
 #include "render/shader_text.h"
 
 namespace ltcfit {
 
+/// Largest number of different textures that the shader has room for.
+inline constexpr std::size_t kMaxLightTextures = 4;
+
 /// Needs a current context, the same for all calls and the destructor: a GlContext or a window's. All throw
 /// GlError, and std::invalid_argument for scenes without surfaces or lights, with more of them than there is
-/// room for (scene.h), or with anisotropic materials where the table is isotropic.
+/// room for (scene.h), with anisotropic materials where the table is isotropic, or with lights of a texture
+/// that was not given.
 class GlRenderer {
  public:
   /// `ltcGlsl`: text in place of ltc.glsl, for tests that plant a fault in it.
   explicit GlRenderer(const ShaderTable& table, std::string ltcGlsl = std::string(shaderText("ltc.glsl")));
+
+  /// The scenes' textures from now on, in the order of Scene::textures; at most kMaxLightTextures.
+  void useTextures(const std::vector<PrefilteredTexture>& textures);
 
   /// The scene in float32, as its camera asks. Each kind of scene is drawn by a shader that was compiled for
   /// what it needs, and kept.
@@ -40,6 +48,8 @@ class GlRenderer {
   std::string tableDefines_;
   bool isotropic_;
   std::vector<GlObject> textures_;
+  std::vector<GlObject> lightTextures_;
+  std::vector<Eigen::Vector2d> lightTextureFetch_;  ///< margin and lodScale of each
   GlObject vertexArray_;
   GlTarget target_;
   std::map<std::string, GlObject> programs_;  ///< by their #defines

@@ -1,10 +1,11 @@
 // Fragment shader of the shading check: what render/scene.cpp sees in a pixel, shaded with the functions of
-// ltc.glsl, whose text stands before this one. What a scene does not need is not compiled; defined before:
+// ltc.glsl and ltc_textured.glsl, whose text stands before this one. What a scene does not need is not compiled; defined before:
 //   SURFACES, LIGHTS  how many there are; LTC_MAX_VERTICES: of the light that has most
 //   RECTANGLES, SPHERES, RAMPS  surfaces of that kind, materials with a ramp
 //   FRESNEL, DIFFUSE  some f0 below 1, some base that is not black
 //   QUADS, POLYGONS  lights of four vertices, lights of others
 //   ONE_SIDED, TWO_SIDED  lights that emit so
+//   TEXTURES  how many textures there are, 1 to 4, where a light has one
 //   LTC_NODES  an anisotropic table, of (nAlpha, nLambda); without it an isotropic one
 //   DISPLAY  colours for a screen, sRGB, instead of radiance
 #ifdef GL_ES
@@ -30,6 +31,7 @@ struct Light {
   int vertices;
   ivec2 plane;  // the axes of the projection in which its outline is tested
   bool twoSided;
+  int texture;  // -1: none
 };
 
 uniform Surface surfaces[SURFACES];
@@ -45,6 +47,11 @@ uniform sampler3D lobes;
 #else
 uniform sampler2D matrixTable;
 uniform sampler2D amplitudeTable;
+#endif
+
+#ifdef TEXTURES
+uniform sampler2D pictures[TEXTURES];
+uniform vec2 pictureFetch[TEXTURES];  // margin, lodScale
 #endif
 
 out vec4 picture;  // w: 0 background, 1 light, 2 surface
@@ -116,6 +123,27 @@ float received(int light, mat3 inverse, vec3 v[LTC_MAX_VERTICES]) {
 #endif
 }
 
+// What multiplies the light's radiance under the lobe of `inverse`.
+vec3 colourOf(int light, mat3 inverse, vec3 v[LTC_MAX_VERTICES]) {
+#ifdef TEXTURES
+  // an array of samplers takes constants only
+#define COLOUR_OF(i)             \
+  if (lights[light].texture == i) \
+    return ltcLightColour(inverse, v[0], v[1], v[2], v[3], pictures[i], pictureFetch[i].x, pictureFetch[i].y);
+  COLOUR_OF(0)
+#if TEXTURES > 1
+  COLOUR_OF(1)
+#endif
+#if TEXTURES > 2
+  COLOUR_OF(2)
+#endif
+#if TEXTURES > 3
+  COLOUR_OF(3)
+#endif
+#endif
+  return vec3(1.0);
+}
+
 // Whether a light emits towards the point.
 bool isLit(int light, vec3 position) {
   bool lit = dot(position - lightVertices[light * LTC_MAX_VERTICES], lights[light].normal) < 0.0;
@@ -163,9 +191,9 @@ vec3 shade(Surface s, vec3 position, vec3 view) {
     vec3 v[LTC_MAX_VERTICES];
     for (int i = 0; i < lights[light].vertices; ++i)
       v[i] = frame * (lightVertices[light * LTC_MAX_VERTICES + i] - position);
-    float value = reflectance * received(light, entry.inverse, v);
+    vec3 value = reflectance * received(light, entry.inverse, v) * colourOf(light, entry.inverse, v);
 #ifdef DIFFUSE
-    value += s.diffuse * received(light, mat3(1.0), v);
+    value += s.diffuse * received(light, mat3(1.0), v) * colourOf(light, mat3(1.0), v);
 #endif
     sum += value * lights[light].radiance;
   }
