@@ -6,6 +6,7 @@
 #include "render/gl_renderer.h"
 #include "render/lost_scene.h"
 #include "render/reference.h"
+#include "render/textured_scenes.h"
 
 namespace ltcfit {
 namespace {
@@ -36,16 +37,25 @@ ReferenceFilm reference(const Scene& scene, const ShadingCheckOptions& options, 
 SceneCheck judge(const CheckScene& check, GlRenderer& gl, const ShaderTable& table, GlRenderer* otherGl,
                  const ShadingCheckOptions& options) {
   const Scene& scene = check.scene;
+  std::vector<PrefilteredTexture> textures;
+  for (const LightTexture& picture : scene.textures) textures.push_back(prefilter(picture, {}));
   SceneCheck out;
   out.check = check;
+  gl.useTextures(textures);
   out.ltc = gl.render(scene);
-  const Film twin = renderTwin(scene, table.table, HorizonClipping::kExact, options.threads);
+  const auto twinOf = [&](HorizonClipping clipping) {
+    return renderTwin(scene, table.table, {clipping, textures, options.threads});
+  };
+  const Film twin = twinOf(HorizonClipping::kExact);
   out.gl = pictureError(out.ltc, twin);
   out.glFloor = isHalf(table) ? kHalfPsnrFloor : check.psnrFloor;
   out.passed =
       out.gl.psnr >= out.glFloor && out.gl.nonFinite == 0 && out.gl.pixels > 0 &&
       static_cast<double>(out.gl.kindsDiffer) <= kKindsShare * static_cast<double>(out.ltc.radiance.size());
-  if (otherGl != nullptr) out.otherLtc = otherGl->render(scene);
+  if (otherGl != nullptr) {
+    otherGl->useTextures(textures);
+    out.otherLtc = otherGl->render(scene);
+  }
 
   const auto compare = [&](const Film& truth) {
     out.error = pictureError(out.ltc, truth);
@@ -67,12 +77,13 @@ SceneCheck judge(const CheckScene& check, GlRenderer& gl, const ShaderTable& tab
   out.referenceRmse = truth.ownRmse;
   out.referenceSamples = truth.meanSamples;
   if (out.lost()) out.explanation = explainLostScene(scene, out.ltc, *out.otherLtc, out.reference);
+  // a texture's own error would hide what clipping does
+  if (!scene.textures.empty()) return out;
+  out.clipping.emplace();
   for (std::size_t c = 0; c < kHorizonClippings; ++c) {
     const HorizonClipping clipping = static_cast<HorizonClipping>(c);
-    const Film film = clipping == HorizonClipping::kExact
-                          ? twin
-                          : renderTwin(scene, table.table, clipping, options.threads);
-    out.clipping[c] = pictureError(film, truth.film).rmse;
+    const Film film = clipping == HorizonClipping::kExact ? twin : twinOf(clipping);
+    (*out.clipping)[c] = pictureError(film, truth.film).rmse;
   }
   return out;
 }
@@ -103,7 +114,7 @@ RandomSummary ShadingCheck::random() const {
     if (s.closer()) ++sum.closer;
     if (s.resolved()) ++sum.resolved;
     sum.referenceRmse += s.referenceRmse;
-    for (std::size_t c = 0; c < kHorizonClippings; ++c) sum.clipping[c] += s.clipping[c];
+    for (std::size_t c = 0; c < kHorizonClippings; ++c) sum.clipping[c] += (*s.clipping)[c];
   }
   if (sum.scenes == 0) return sum;
   const double n = static_cast<double>(sum.scenes);
@@ -131,6 +142,7 @@ ShadingCheck runShadingCheck(const ShaderTable& table, const ShaderTable* other,
     scenes.push_back({makeScene(*options.custom), 50.0, ""});
   } else {
     scenes = namedScenes(anisotropic);
+    for (CheckScene& check : texturedScenes()) scenes.push_back(std::move(check));
   }
   for (CheckScene& check : scenes) {
     check.scene.camera.width = options.width;

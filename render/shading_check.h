@@ -51,8 +51,8 @@ struct SceneCheck {
   std::optional<Film> otherLtc;       ///< the table compared with, by GL
   std::optional<PictureError> other;  ///< it against the reference
   std::string explanation;            ///< where the other table is closer: why
-  /// RMSE of the twin against the reference, by HorizonClipping.
-  std::array<double, kHorizonClippings> clipping{};
+  /// RMSE of the twin against the reference, by HorizonClipping; none for textured lights.
+  std::optional<std::array<double, kHorizonClippings>> clipping;
 
   /// Whether the reference's own error is at most a tenth of what it judges.
   bool resolved() const;

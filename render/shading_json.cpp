@@ -71,7 +71,7 @@ Json sceneToJson(const SceneCheck& s) {
             {"resolved", s.resolved()}}},
           {"error", errorToJson(s.error)},
           {"against", s.other ? errorToJson(*s.other) : Json()},
-          {"clipping", clippingToJson(s.clipping)},
+          {"clipping", s.clipping ? clippingToJson(*s.clipping) : Json()},
           {"explanation", s.explanation},
           {"pictures", picturesToJson(s)}};
 }

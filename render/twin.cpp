@@ -5,11 +5,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
 #include "ltc/polygon.h"
 #include "ltc/sphere.h"
+#include "render/textured_light.h"
 
 namespace ltcfit {
 namespace {
@@ -25,27 +27,43 @@ Eigen::Matrix3d towardsView(const Eigen::Vector3d& wo) {
   return turn;
 }
 
-// Turns the outline of a two-sided light seen from behind; false for a one-sided one.
-bool turnToFront(const PolygonLight& light, std::vector<Eigen::Vector3d>& vertices) {
+// Whether the light of these vertices, relative to the point, emits towards it.
+bool facesOrigin(const std::vector<Eigen::Vector3d>& vertices) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
     normal += (vertices[i] - vertices[0]).cross(vertices[i + 1] - vertices[0]);
-  if (normal.dot(vertices[0]) > 0.0) return true;
-  std::reverse(vertices.begin(), vertices.end());
-  return light.twoSided;
+  return normal.dot(vertices[0]) > 0.0;
 }
 
-double lobeIntegral(const Ltc& lobe, std::span<const Eigen::Vector3d> vertices, HorizonClipping clipping,
-                    const SphereTable& spheres) {
+struct Shading {
+  const Scene& scene;
+  const Table& table;
+  const TwinOptions& options;
+  SphereTable spheres;
+};
+
+// Integral over the light, times the colour of its texture. `turned`: their order was turned round.
+Eigen::Vector3d received(const Shading& shading, const PolygonLight& light, const Ltc& lobe,
+                         std::span<const Eigen::Vector3d> vertices, HorizonClipping clipping, bool turned) {
+  double integral = 0.0;
   switch (clipping) {
     case HorizonClipping::kExact:
-      return std::max(0.0, ltcPolygonIntegral(lobe, vertices));
+      integral = std::max(0.0, ltcPolygonIntegral(lobe, vertices));
+      break;
     case HorizonClipping::kProxySphere:
-      return ltcPolygonIntegralByProxySphere(lobe, vertices);
+      integral = ltcPolygonIntegralByProxySphere(lobe, vertices);
+      break;
     case HorizonClipping::kProxySphereTable:
+      integral = ltcPolygonIntegralBySphereTable(lobe, vertices, shading.spheres);
       break;
   }
-  return ltcPolygonIntegralBySphereTable(lobe, vertices, spheres);
+  if (light.texture < 0) return Eigen::Vector3d::Constant(integral);
+  // the texture knows the vertices in the light's own order
+  std::array<Eigen::Vector3d, 4> corners;
+  std::copy_n(vertices.begin(), 4, corners.begin());
+  if (turned) std::reverse(corners.begin(), corners.end());
+  const PrefilteredTexture& texture = shading.options.textures[static_cast<std::size_t>(light.texture)];
+  return integral * fetchPrefiltered(texture, lobe.mInv(), corners);
 }
 
 TableEntry fetchAt(const Table& table, const SurfacePoint& point) {
@@ -57,24 +75,29 @@ TableEntry fetchAt(const Table& table, const SurfacePoint& point) {
   return table.fetch(p);
 }
 
-Eigen::Vector3d shadeByTable(const Scene& scene, const SurfacePoint& point, const Table& table,
-                             HorizonClipping clipping, const SphereTable& spheres) {
-  const TableEntry entry = fetchAt(table, point);
+Eigen::Vector3d shadeByTable(const Shading& shading, const SurfacePoint& point) {
+  const TableEntry entry = fetchAt(shading.table, point);
   const bool usable = entry.invertible;  // else black, as the shader
   const Material& material = point.surface->material;
   const double reflectance = material.f0 * *entry.norm + (1.0 - material.f0) * *entry.fresnel;
   const Ltc lobe(usable ? entry.m : Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  const Ltc cosine{Eigen::Matrix3d(Eigen::Matrix3d::Identity())};
   const Eigen::Matrix3d turn =
-      table.isIsotropic() ? towardsView(point.wo) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+      shading.table.isIsotropic() ? towardsView(point.wo) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const PolygonLight& light : scene.lights) {
+  for (const PolygonLight& light : shading.scene.lights) {
     std::vector<Eigen::Vector3d> vertices = lightFrom(point, light);
-    if (!turnToFront(light, vertices)) continue;
-    double value = 0.0;
-    if (material.diffuse > 0.0) value += material.diffuse * std::max(0.0, polygonIrradiance(vertices));
+    if (std::none_of(vertices.begin(), vertices.end(), [](const auto& v) { return v.z() > 0.0; })) continue;
+    const bool turned = !facesOrigin(vertices);
+    if (turned && !light.twoSided) continue;
+    if (turned) std::reverse(vertices.begin(), vertices.end());
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    if (material.diffuse > 0.0)
+      value += material.diffuse * received(shading, light, cosine, vertices, HorizonClipping::kExact, turned);
     for (Eigen::Vector3d& v : vertices) v = turn * v;
-    if (usable) value += reflectance * lobeIntegral(lobe, vertices, clipping, spheres);
-    sum += value * light.radiance;
+    if (usable)
+      value += reflectance * received(shading, light, lobe, vertices, shading.options.clipping, turned);
+    sum += value.cwiseProduct(light.radiance);
   }
   return sum;
 }
@@ -93,23 +116,30 @@ std::string_view horizonClippingName(HorizonClipping clipping) {
   return "proxy-sphere-table";
 }
 
-Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping, int threads) {
+Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& options) {
   const std::vector<std::string>& channels = table.info().channels;
   for (const char* const needed : {"norm", "fresnel"}) {
     if (std::find(channels.begin(), channels.end(), needed) == channels.end())
       throw std::invalid_argument(fmt::format("the table has no {}", needed));
   }
-  const SphereTable spheres;
+  for (const PolygonLight& light : scene.lights) {
+    if (light.texture >= static_cast<int>(options.textures.size()))
+      throw std::invalid_argument(
+          fmt::format("a light has texture {} of {}", light.texture, options.textures.size()));
+    if (light.texture >= 0 && light.vertices.size() != 4)
+      throw std::invalid_argument(fmt::format("a light of {} vertices has a texture", light.vertices.size()));
+  }
+  const Shading shading{scene, table, options, SphereTable()};
   Film film(scene.camera.width, scene.camera.height);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : omp_get_max_threads())
+#pragma omp parallel for schedule(dynamic, 1) \
+    num_threads(options.threads > 0 ? options.threads : omp_get_max_threads())
   for (std::size_t row = 0; row < film.height; ++row) {
     for (std::size_t column = 0; column < film.width; ++column) {
       const PixelView view = viewPixel(scene, column, row);
       const std::size_t pixel = row * film.width + column;
       film.kinds[pixel] = view.kind;
       if (view.kind == PixelKind::kLight) film.radiance[pixel] = scene.lights[view.light].radiance;
-      if (view.kind == PixelKind::kSurface)
-        film.radiance[pixel] = shadeByTable(scene, view.point, table, clipping, spheres);
+      if (view.kind == PixelKind::kSurface) film.radiance[pixel] = shadeByTable(shading, view.point);
     }
   }
   return film;

@@ -2,10 +2,12 @@
 // integral, in double arithmetic.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "ltc/table.h"
 #include "render/film.h"
+#include "render/prefilter.h"
 #include "render/scene.h"
 
 namespace ltcfit {
@@ -22,14 +24,21 @@ inline constexpr std::size_t kHorizonClippings = 3;
 /// "exact", "proxy-sphere", "proxy-sphere-table".
 std::string_view horizonClippingName(HorizonClipping clipping);
 
+struct TwinOptions {
+  HorizonClipping clipping = HorizonClipping::kExact;
+  /// The scene's textures, prefiltered, in the order of Scene::textures.
+  std::span<const PrefilteredTexture> textures;
+  int threads = 0;  ///< 0 = all cores. Does not change the picture
+};
+
 /// Reflected radiance towards the camera. Each light adds its radiance times
-///   (f0 norm + (1 - f0) fresnel) Psi(lobe) + diffuse Psi(cosine),
+///   (f0 norm + (1 - f0) fresnel) Psi(lobe) colour(lobe) + diffuse Psi(cosine) colour(cosine),
 /// Psi the integral of the LTC that the table yields here, and of the clamped cosine, over the light (Heitz
-/// et al. 2016, eq. 10 and 11), 0 behind a one-sided light. The cosine's is always clipped exactly. `table`
-/// as the shader reads it (storedAs); an isotropic one reads alpha.x(). Where a look-up has no inverse the
-/// lobe adds nothing. A table without norm or fresnel throws std::invalid_argument. `threads` 0 = all cores;
-/// does not change the picture.
-Film renderTwin(const Scene& scene, const Table& table, HorizonClipping clipping = HorizonClipping::kExact,
-                int threads = 0);
+/// et al. 2016, eq. 10 and 11), 0 behind a one-sided light and where all of a light is below the surface's
+/// horizon; colour the fetch of a texture (section 5.4), 1 without one. The cosine's integral is always
+/// clipped exactly. `table` as the shader reads it (storedAs); an isotropic one reads alpha.x(). Where a
+/// look-up has no inverse the lobe adds nothing. Throws std::invalid_argument: a table without norm or
+/// fresnel, a light whose texture is not given.
+Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& options = {});
 
 }  // namespace ltcfit

@@ -189,8 +189,12 @@ vec3 shade(Surface s, vec3 position, vec3 view) {
   for (int light = 0; light < LIGHTS; ++light) {
     if (!isLit(light, position)) continue;
     vec3 v[LTC_MAX_VERTICES];
-    for (int i = 0; i < lights[light].vertices; ++i)
+    float highest = 0.0;
+    for (int i = 0; i < lights[light].vertices; ++i) {
       v[i] = frame * (lightVertices[light * LTC_MAX_VERTICES + i] - position);
+      highest = max(highest, v[i].z);
+    }
+    if (highest <= 0.0) continue;  // as ltcAboveSurface, for any polygon
     vec3 value = reflectance * received(light, entry.inverse, v) * colourOf(light, entry.inverse, v);
 #ifdef DIFFUSE
     value += s.diffuse * received(light, mat3(1.0), v) * colourOf(light, mat3(1.0), v);
