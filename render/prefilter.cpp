@@ -48,6 +48,7 @@ Weights weightsAt(double centre, double sigma, std::size_t count) {
   weights.first = from == 0 ? 0 : from - 1;
   weights.values.setZero(static_cast<Eigen::Index>(std::min(to, count - 1) - weights.first + 1));
   const auto scaled = [&](double t) { return (t - centre) / (sigma * std::numbers::sqrt2); };
+  // sigma^2 times the Gaussian, whose difference is the integral of t - centre under it, the sign turned
   const auto density = [&](double x) { return std::exp(-x * x) * sigma / std::sqrt(2.0 * std::numbers::pi); };
   for (std::size_t j = from; j <= to; ++j) {
     const double a = knot(j);
@@ -61,7 +62,7 @@ Weights weightsAt(double centre, double sigma, std::size_t count) {
   const double sum = weights.values.sum();
   if (sum > 0.0) {
     weights.values /= sum;
-  } else {
+  } else {  // so far outside that all of it underflows
     weights.values.setZero();
     weights.values[edge > 0.5 ? weights.values.size() - 1 : 0] = 1.0;
   }
