@@ -42,22 +42,6 @@ double share(double own, double other) {
   return own / (own + other);
 }
 
-Vector3d bilinear(const LightTexture& texture, double s, double t) {
-  const double w = static_cast<double>(texture.width);
-  const double h = static_cast<double>(texture.height);
-  const double x = std::clamp(s * w - 0.5, 0.0, w - 1.0);
-  const double y = std::clamp(t * h - 0.5, 0.0, h - 1.0);
-  const std::size_t x0 = static_cast<std::size_t>(x);
-  const std::size_t y0 = static_cast<std::size_t>(y);
-  const std::size_t x1 = std::min(x0 + 1, texture.width - 1);
-  const std::size_t y1 = std::min(y0 + 1, texture.height - 1);
-  const double a = x - static_cast<double>(x0);
-  const double b = y - static_cast<double>(y0);
-  const auto at = [&](std::size_t i, std::size_t j) { return texture.texels[j * texture.width + i]; };
-  return (1.0 - b) * ((1.0 - a) * at(x0, y0) + a * at(x1, y0)) +
-         b * ((1.0 - a) * at(x0, y1) + a * at(x1, y1));
-}
-
 }  // namespace
 
 void DirectLight::setPoint(const SurfacePoint& point) {
@@ -118,7 +102,7 @@ Vector3d DirectLight::emitted(const SeenLight& seen, const Vector2d& place) cons
   const Vector2d& down = outline[3];
   const LightTexture& texture = scene_.textures[static_cast<std::size_t>(light.texture)];
   return light.radiance.cwiseProduct(
-      bilinear(texture, place.dot(right) / right.squaredNorm(), place.dot(down) / down.squaredNorm()));
+      textureAt(texture, place.dot(right) / right.squaredNorm(), place.dot(down) / down.squaredNorm()));
 }
 
 Vector3d DirectLight::sumOverLight(const SeenLight& seen, std::uint64_t seed, std::uint32_t first,

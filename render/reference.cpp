@@ -112,7 +112,7 @@ ReferenceFilm renderReference(const Scene& scene, const ReferenceOptions& option
   for (std::size_t i = 0; i < out.film.radiance.size(); ++i) {
     const PixelView view = viewPixel(scene, i % out.film.width, i / out.film.width);
     out.film.kinds[i] = view.kind;
-    if (view.kind == PixelKind::kLight) out.film.radiance[i] = scene.lights[view.light].radiance;
+    if (view.kind == PixelKind::kLight) out.film.radiance[i] = view.radiance;
     if (view.kind == PixelKind::kSurface)
       pixels.push_back({i, view.point, 0, std::vector<Vector3d>(options.replicates, Vector3d::Zero()), 0.0});
   }

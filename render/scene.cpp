@@ -110,7 +110,34 @@ SurfacePoint surfacePoint(const Surface& s, const Eigen::Vector3d& position,
   return point;
 }
 
+// Of the light seen directly at a point of its plane.
+Eigen::Vector3d radianceAt(const Scene& scene, const PolygonLight& light, const Eigen::Vector3d& position) {
+  if (light.texture < 0) return light.radiance;
+  const Eigen::Vector3d from = position - light.vertices[0];
+  const Eigen::Vector3d right = light.vertices[1] - light.vertices[0];
+  const Eigen::Vector3d down = light.vertices[3] - light.vertices[0];
+  return light.radiance.cwiseProduct(textureAt(scene.textures[static_cast<std::size_t>(light.texture)],
+                                               from.dot(right) / right.squaredNorm(),
+                                               from.dot(down) / down.squaredNorm()));
+}
+
 }  // namespace
+
+Eigen::Vector3d textureAt(const LightTexture& texture, double s, double t) {
+  const double w = static_cast<double>(texture.width);
+  const double h = static_cast<double>(texture.height);
+  const double x = std::clamp(s * w - 0.5, 0.0, w - 1.0);
+  const double y = std::clamp(t * h - 0.5, 0.0, h - 1.0);
+  const std::size_t x0 = static_cast<std::size_t>(x);
+  const std::size_t y0 = static_cast<std::size_t>(y);
+  const std::size_t x1 = std::min(x0 + 1, texture.width - 1);
+  const std::size_t y1 = std::min(y0 + 1, texture.height - 1);
+  const double a = x - static_cast<double>(x0);
+  const double b = y - static_cast<double>(y0);
+  const auto at = [&](std::size_t i, std::size_t j) { return texture.texels[j * texture.width + i]; };
+  return (1.0 - b) * ((1.0 - a) * at(x0, y0) + a * at(x1, y0)) +
+         b * ((1.0 - a) * at(x0, y1) + a * at(x1, y1));
+}
 
 PixelView viewPixel(const Scene& scene, std::size_t column, std::size_t row) {
   const Ray ray = pixelRay(scene.camera, column, row);
@@ -129,7 +156,7 @@ PixelView viewPixel(const Scene& scene, std::size_t column, std::size_t row) {
     if (t < nearest) {
       nearest = t;
       view.kind = PixelKind::kLight;
-      view.light = i;
+      view.radiance = radianceAt(scene, scene.lights[i], ray.origin + t * ray.direction);
     }
   }
   if (hit != nullptr && view.kind != PixelKind::kLight) {

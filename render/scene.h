@@ -79,6 +79,9 @@ struct LightTexture {
   std::vector<Eigen::Vector3d> texels;
 };
 
+/// The texture at u to the right and v down, both 0..1 within it.
+Eigen::Vector3d textureAt(const LightTexture& texture, double u, double v);
+
 struct Scene {
   std::string name;   ///< for files: lower case, digits, '-'
   std::string title;  ///< one line for people: what it shows
@@ -104,12 +107,12 @@ struct SurfacePoint {
   Eigen::Vector2d alpha;  ///< of the material, here
 };
 
-/// What the pixel in `column` and `row` (from the top) shows; `point` is set for kSurface, `light` to the
-/// light's index for kLight. A light hides what is behind it, seen from either side.
+/// What the pixel in `column` and `row` (from the top) shows; `point` is set for kSurface, `radiance`
+/// for kLight. A light hides what is behind it, seen from either side.
 struct PixelView {
   PixelKind kind = PixelKind::kBackground;
   SurfacePoint point;
-  std::size_t light = 0;
+  Eigen::Vector3d radiance = Eigen::Vector3d::Zero();
 };
 PixelView viewPixel(const Scene& scene, std::size_t column, std::size_t row);
 

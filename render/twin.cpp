@@ -138,7 +138,7 @@ Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& optio
       const PixelView view = viewPixel(scene, column, row);
       const std::size_t pixel = row * film.width + column;
       film.kinds[pixel] = view.kind;
-      if (view.kind == PixelKind::kLight) film.radiance[pixel] = scene.lights[view.light].radiance;
+      if (view.kind == PixelKind::kLight) film.radiance[pixel] = view.radiance;
       if (view.kind == PixelKind::kSurface) film.radiance[pixel] = shadeByTable(shading, view.point);
     }
   }

@@ -144,6 +144,31 @@ vec3 colourOf(int light, mat3 inverse, vec3 v[LTC_MAX_VERTICES]) {
   return vec3(1.0);
 }
 
+// What multiplies the light's radiance where it is seen directly.
+vec3 colourAt(int light, vec3 position) {
+#ifdef TEXTURES
+  int first = light * LTC_MAX_VERTICES;
+  vec3 from = position - lightVertices[first];
+  vec3 right = lightVertices[first + 1] - lightVertices[first];
+  vec3 down = lightVertices[first + 3] - lightVertices[first];
+  vec2 uv = vec2(dot(from, right) / dot(right, right), dot(from, down) / dot(down, down));
+#define COLOUR_AT(i)              \
+  if (lights[light].texture == i) \
+    return textureLod(pictures[i], (uv + pictureFetch[i].x) / (1.0 + 2.0 * pictureFetch[i].x), 0.0).rgb;
+  COLOUR_AT(0)
+#if TEXTURES > 1
+  COLOUR_AT(1)
+#endif
+#if TEXTURES > 2
+  COLOUR_AT(2)
+#endif
+#if TEXTURES > 3
+  COLOUR_AT(3)
+#endif
+#endif
+  return vec3(1.0);
+}
+
 // Whether a light emits towards the point.
 bool isLit(int light, vec3 position) {
   bool lit = dot(position - lightVertices[light * LTC_MAX_VERTICES], lights[light].normal) < 0.0;
@@ -228,7 +253,7 @@ void main() {
     float t = hitLight(i, direction);
     if (t < nearest) {
       nearest = t;
-      picture = vec4(lights[i].radiance, 1.0);
+      picture = vec4(lights[i].radiance * colourAt(i, cameraPosition + t * direction), 1.0);
     }
   }
   if (hit >= 0 && picture.w == 0.0)
