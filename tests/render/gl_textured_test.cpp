@@ -1,24 +1,23 @@
-// Textured lights as OpenGL draws them against the same look-ups in double.
+// Textured lights as OpenGL draws them against the twin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
-#include "ltc/polygon.h"
 #include "render/gl_renderer.h"
 #include "render/light_textures.h"
 #include "render/picture_error.h"
 #include "render/scenes.h"
-#include "render/textured_light.h"
+#include "render/twin.h"
 #include "tests/render/gl.h"
 
 namespace ltcfit::test {
 namespace {
 
-// A plane and a sphere with a coloured base under two rectangles, one of them textured.
+// A plane and a sphere with a base that is not black under three rectangles, two of them textured.
 Scene texturedScene() {
   Scene scene = makeScene({});
   scene.name = "textured";
@@ -41,38 +40,7 @@ std::vector<PrefilteredTexture> textures() {
   return {prefilter(stainedGlass(64, 5), {}), prefilter(colourGradient(32), {})};
 }
 
-Eigen::Vector3d colourOf(const PolygonLight& light, const std::vector<PrefilteredTexture>& textures,
-                         const Eigen::Matrix3d& inverse, const std::vector<Eigen::Vector3d>& v) {
-  if (light.texture < 0) return Eigen::Vector3d::Ones();
-  return fetchPrefiltered(textures[static_cast<std::size_t>(light.texture)], inverse,
-                          std::span<const Eigen::Vector3d, 4>(v.data(), 4));
-}
-
-// The anisotropic table's look-up, one-sided lights.
-Film twinOf(const Scene& scene, const Table& table, const std::vector<PrefilteredTexture>& textures) {
-  Film film(scene.camera.width, scene.camera.height);
-  for (std::size_t i = 0; i < film.radiance.size(); ++i) {
-    const PixelView view = viewPixel(scene, i % film.width, i / film.width);
-    film.kinds[i] = view.kind;
-    if (view.kind != PixelKind::kSurface) continue;
-    const SurfacePoint& point = view.point;
-    const Material& material = point.surface->material;
-    const TableEntry entry = table.fetch({point.alpha.x(), point.alpha.y(),
-                                          std::atan2(std::hypot(point.wo.x(), point.wo.y()), point.wo.z()),
-                                          std::atan2(point.wo.y(), point.wo.x())});
-    const double reflectance = material.f0 * *entry.norm + (1.0 - material.f0) * *entry.fresnel;
-    for (const PolygonLight& light : scene.lights) {
-      const std::vector<Eigen::Vector3d> v = lightFrom(point, light);
-      film.radiance[i] += reflectance * std::max(0.0, ltcPolygonIntegral(Ltc(entry.m), v)) *
-                          colourOf(light, textures, entry.mInv, v);
-      film.radiance[i] += material.diffuse * std::max(0.0, polygonIrradiance(v)) *
-                          colourOf(light, textures, Eigen::Matrix3d::Identity(), v);
-    }
-  }
-  return film;
-}
-
-TEST(GlTextured, AgreesWithTheSameLookUpInDouble) {
+TEST(GlTextured, AgreesWithTheTwin) {
   if (const std::string reason = glUnavailable(); !reason.empty()) GTEST_SKIP() << reason;
   const GlContext context;
   const ShaderTable table = loadShaderTable(std::string(LTCFIT_DATA_DIR) + "/ltc_aniso.json");
@@ -80,7 +48,9 @@ TEST(GlTextured, AgreesWithTheSameLookUpInDouble) {
   GlRenderer renderer(table);
   renderer.useTextures(pictures);
   const Scene scene = texturedScene();
-  const Film twin = twinOf(scene, table.table, pictures);
+  TwinOptions options;
+  options.textures = pictures;
+  const Film twin = renderTwin(scene, table.table, options);
   const PictureError error = pictureError(renderer.render(scene), twin);
   std::printf("  %.1f dB, largest %.1e\n", error.psnr, error.largest);
   // float32 of u, v and the level move the look-up by about 1e-5 of a texel
