@@ -36,7 +36,15 @@ function shadingSummary(shading, named, random) {
         ? `; that of ${against.name} is ${numberText(means.against_rmse)}. The ratio is ${numberText(means.against_rmse > 0 ? means.rmse / means.against_rmse : null)}.`
         : '.',
     ]);
-    if (against) items.push([`${table.name} is closer in ${partText(means.closer, means.scenes)} random scenes.`]);
+    if (against) {
+      const lost = random.filter(isCloser).length;
+      const between = means.scenes - means.closer - lost;
+      items.push([
+        `${table.name} is closer by more than the reference\u2019s own error in ${partText(means.closer, means.scenes)} `,
+        `random scenes, ${against.name} is closer in ${countText(lost)}`,
+        between > 0 ? `; in the other ${countText(between)} the lead of ${table.name} is within that error.` : '.',
+      ]);
+    }
   }
   items.push([
     'The reference\u2019s own error is at most a tenth of what it judges in ',
@@ -104,6 +112,18 @@ function sceneTable(shading, scenes) {
   return scrolling(made, 'Named scenes');
 }
 
+// Why a scene fails that does.
+function failureText({ passed, gl }) {
+  if (passed) return null;
+  const reasons = [
+    gl.psnr < gl.floor ? 'the PSNR is below its floor' : null,
+    gl.non_finite > 0 ? `${countText(gl.non_finite)} pixels are not finite` : null,
+    gl.kinds_differ > 0 ? `${countText(gl.kinds_differ)} pixels show another kind of thing` : null,
+    gl.pixels === 0 ? 'no pixel shows a surface in both' : null,
+  ];
+  return `GL fails against its twin: ${reasons.filter(Boolean).join(', ') || 'the PSNR is at its floor'}.`;
+}
+
 const closerText = (shading, scene) =>
   isCloser(scene) ? `${shading.against.name} is closer: ${scene.explanation || 'no explanation'}.` : null;
 
@@ -124,6 +144,7 @@ function namedScenes(shading, scenes) {
           shading,
           scene,
           `${scene.name}: ${scene.title}`,
+          failureText(scene),
           scene.loss ? `GL against its twin: ${decibels(scene.gl.psnr)} dB; ${scene.loss}.` : null,
           closerText(shading, scene),
         ),
@@ -158,7 +179,7 @@ function randomScenes(shading, scenes, id) {
               scene.name,
               `RMSE ${numberText(scene.error.rmse)}, of the other ${numberText(scene.against.rmse)}: ` +
                 `${ratioText(scene.error.rmse / scene.against.rmse)}; alpha ${alphaText(scene.alpha)}.` +
-                `${scene.reference.resolved ? '' : ` Own error of the reference ${numberText(scene.reference.rmse)}: ${unresolvedText}.`}`,
+                `${scene.reference.resolved ? '' : ` Own error of the reference ${numberText(scene.reference.rmse)} (${unresolvedText}).`}`,
               closerText(shading, scene),
             ),
           ),

@@ -2,7 +2,7 @@
 
 const isCloser = (scene) => scene.against !== null && scene.against.rmse < scene.error.rmse;
 const alphaText = ([x, y]) => (x === y ? numberText(x) : `${numberText(x)} \u00d7 ${numberText(y)}`);
-const unresolvedText = 'the reference is not exact enough to tell them apart';
+const unresolvedText = 'not exact enough: more than a tenth of what it judges';
 
 // What can stand in a logarithmic chart.
 const comparable = (scenes) => scenes.filter(({ error, against }) => error.rmse > 0 && against?.rmse > 0);

@@ -30,10 +30,10 @@ Json scene(const char* name, bool random, Json error, Json against) {
             {"floor", 50},
             {"largest", 1e-5},
             {"non_finite", 0},
-            {"kinds_differ", 3},
+            {"kinds_differ", 0},
             {"pixels", 9}}},
           {"passed", true},
-          {"reference", {{"rmse", 1e-4}, {"samples", 256}, {"resolved", true}}},
+          {"reference", {{"rmse", 1e-4}, {"samples", 256.5}, {"resolved", true}}},
           {"error", std::move(error)},
           {"against", std::move(against)},
           {"clipping", {{"exact", 0.003}, {"proxy-sphere", 0.006}, {"proxy-sphere-table", 0.005}}},
@@ -175,7 +175,9 @@ TEST(ShadingFile, DamagedOnesAreRefusedByTheField) {
               "f.json: scenes[0].alpha is not two numbers above 0, up to 1");
   EXPECT_EQ(damaged("/scenes/0/gl/psnr", nullptr), "f.json: scenes[0].gl.psnr is not a number");
   EXPECT_EQ(damaged("/scenes/0/gl/psnr", 151), "f.json: scenes[0].gl.psnr is 151, not within -1000..150");
-  EXPECT_EQ(damaged("/scenes/0/gl/pixels", 0), "f.json: scenes[0].gl.pixels is 0");
+  EXPECT_EQ(damaged("/scenes/0/gl/pixels", 1.5), "f.json: scenes[0].gl.pixels is not a count");
+  EXPECT_EQ(damaged("/scenes/0/reference/samples", 0),
+            "f.json: scenes[0].reference.samples is 0, not within 1..1e+12");
   EXPECT_EQ(damaged("/scenes/0/error/rmse", -1), "f.json: scenes[0].error.rmse is -1, not within 0..1e+39");
   EXPECT_EQ(damaged("/scenes/0/error/largest", 1e300),
             "f.json: scenes[0].error.largest is 1e+300, not within 0..1e+39");
@@ -209,13 +211,27 @@ TEST(ShadingFile, VerdictsAreThoseOfTheirFigures) {
   EXPECT_EQ(damaged("/scenes/0/error/psnr", 50.6),
             "f.json: scenes[0].error.psnr is 50.6, and of the RMSE it is 50.458");
   EXPECT_EQ(damaged("/scenes/2/reference/resolved", true),
-            "f.json: scenes[2].reference.resolved is true, and its own error is 0.75 of what it judges");
+            "f.json: scenes[2].reference.resolved is true, and its own error is 0.003 where it judges 0.002");
+  EXPECT_EQ(
+      damaged("/scenes/0/reference/resolved", false),
+      "f.json: scenes[0].reference.resolved is false, and its own error is 0.0001 where it judges 0.003");
+  // outlines alone may fail a scene
+  EXPECT_EQ(damaged({{"/scenes/0/gl/kinds_differ", 3}, {"/scenes/0/passed", false}, {"/passed", false}}),
+            "accepted");
+  EXPECT_EQ(damaged("/scenes/0/gl/pixels", 0),
+            "f.json: scenes[0].passed is true, with a PSNR of 98.2 dB, a floor of 50 dB and no pixels");
 }
 
 TEST(ShadingFile, SumsAreThoseOfTheScenes) {
   EXPECT_EQ(damaged("/random", nullptr), "f.json: random is null, and 2 scenes are random");
   EXPECT_EQ(damaged("/random/scenes", 3), "f.json: random.scenes is 3, and of the scenes listed it is 2");
   EXPECT_EQ(damaged("/random/closer", 2), "f.json: random.closer is 2, and of the scenes listed it is 1");
+  // a lead within the reference's own error is none
+  EXPECT_EQ(damaged({{"/scenes/1/reference/rmse", 0.0025},
+                     {"/scenes/1/reference/resolved", false},
+                     {"/random/resolved", 0},
+                     {"/random/reference_rmse", 0.00275}}),
+            "f.json: random.closer is 1, and of the scenes listed it is 0");
   EXPECT_EQ(damaged("/random/resolved", 2), "f.json: random.resolved is 2, and of the scenes listed it is 1");
   EXPECT_EQ(damaged("/random/rmse", 0.0026),
             "f.json: random.rmse is 0.0026, and of the scenes listed it is 0.0025");
@@ -262,7 +278,7 @@ TEST(ShadingFile, PicturesAreWholePngsOfAllowedSize) {
   EXPECT_NE(picture("QUJD").find("is not a PNG"), std::string::npos);
   EXPECT_NE(picture("iVBORw0KGgo=").find("ends within its header"), std::string::npos);
   for (std::size_t n = 32; n + 24 < good.size(); n += 4) picture(good.substr(0, n));
-  EXPECT_NE(picture(pictureOf(2049, 1)).find("is 2049 x 1 pixels, more than 2048"), std::string::npos);
+  EXPECT_NE(picture(pictureOf(4097, 1)).find("is 4097 x 1 pixels, more than 4096"), std::string::npos);
   // of such a size only the header: the sizes add up before anything is decoded
   const Json large{{"ltc", pictureOf(2000, 2000).substr(0, 48)}};
   PictureChecks checks;

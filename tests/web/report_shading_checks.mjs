@@ -31,7 +31,10 @@ async function figures(page) {
       says(shading.renderer);
       const line = [...document.querySelectorAll('#top li')].find((e) => e.textContent.startsWith(`${shading.table.name}, rendered`));
       if (!line?.querySelector(shading.passed ? '.pass' : '.fail')) found.push(`${what}: no word on it, or a wrong one, on top`);
-      if (shading.against) says(`closer in ${shading.random.closer} of ${shading.random.scenes}`);
+      if (shading.against) {
+        says(`own error in ${shading.random.closer} of ${shading.random.scenes} random scenes`);
+        says(`${shading.against.name} is closer in ${lost.length}`);
+      }
       if (shading.random) says(String(three(shading.random.rmse)));
 
       const table = [...own.querySelectorAll('table')].find((one) => one.caption.textContent.startsWith('Errors'));
@@ -77,6 +80,7 @@ async function figures(page) {
           wanted.length,
         );
         expect(`${scene.name}: texts for pictures`, new Set(images.map((image) => image.alt)).size, wanted.length);
+        if (!scene.passed && !card.textContent.includes('GL fails')) found.push(`${scene.name}: no word on why it fails`);
         if (isCloser(scene) && !card.textContent.includes(scene.explanation))
           found.push(`${scene.name}: no word on why the other table is closer`);
       });

@@ -27,7 +27,7 @@ function scene(name, title, index, random, { compared, rmse, ratio, resolved = t
     alpha: [alpha, index % 3 ? alpha : figure(alpha / 4)],
     gl: { psnr, floor: 50, largest: 1e-4, non_finite: 0, kinds_differ: 2, pixels: 12345 },
     passed,
-    reference: { rmse: figure(rmse * (resolved ? 0.04 : 0.6)), samples: 256, resolved },
+    reference: { rmse: figure(Math.min(rmse, rmse / ratio) * (resolved ? 0.04 : 0.6)), samples: 256.5, resolved },
     error: errors(rmse),
     against: compared ? errors(rmse / ratio) : null,
     clipping: clipping
@@ -50,7 +50,7 @@ function sums(scenes, compared) {
     scenes: own.length,
     rmse: mean(own.map(({ error }) => error.rmse)),
     against_rmse: compared ? mean(own.map(({ against }) => against.rmse)) : null,
-    closer: compared ? own.filter(({ error, against }) => error.rmse < against.rmse).length : null,
+    closer: compared ? own.filter(({ error, against, reference }) => against.rmse - error.rmse > reference.rmse).length : null,
     resolved: own.filter(({ reference }) => reference.resolved).length,
     reference_rmse: mean(own.map(({ reference }) => reference.rmse)),
     clipping:
