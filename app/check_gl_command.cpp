@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,8 @@
 #include "render/shading_check.h"
 #include "render/shading_files.h"
 #include "render/shading_json.h"
+#include "render/textured_scenes.h"
+#include "render/window.h"
 
 namespace ltcfit::app {
 namespace {
@@ -35,6 +38,7 @@ struct CheckGlArguments {
   std::int64_t samples = static_cast<std::int64_t>(ShadingCheckOptions{}.maxSamples);
   std::int64_t seed = 1;
   int threads = 0;
+  bool window = false;
   bool cost = false;
   bool quiet = false;
   bool json = false;
@@ -150,6 +154,15 @@ void makeFolder(const std::string& path) {
   checkWritable((std::filesystem::path(path) / "shading.json").string());
 }
 
+// The one asked for, or all that have names.
+std::vector<Scene> scenesToShow(const ShaderTable& table, const ShadingCheckOptions& options) {
+  if (options.custom) return {makeScene(*options.custom)};
+  std::vector<Scene> out;
+  for (const std::vector<CheckScene>& scenes : {namedScenes(!table.isIsotropic()), texturedScenes()})
+    for (const CheckScene& check : scenes) out.push_back(check.scene);
+  return out;
+}
+
 int checkGlCommand(const CheckGlArguments& a) {
   const ShadingCheckOptions options = toOptions(a);
   const ShaderTable table = loadShaderTable(a.table);
@@ -162,6 +175,12 @@ int checkGlCommand(const CheckGlArguments& a) {
     if (against->isIsotropic() != table.isIsotropic())
       throw InputError(
           fmt::format("--against {}: of {} and {} only one is anisotropic", a.against, a.table, a.against));
+  }
+  if (a.window) {
+    fmt::print("{}", windowHelp());
+    std::fflush(stdout);
+    showWindow(table, scenesToShow(table, options));
+    return kExitOk;
   }
   if (!a.output.empty()) makeFolder(a.output);
   ShadingCheck check;

@@ -162,6 +162,7 @@ Picture showWindow(const ShaderTable& table, std::vector<Scene> scenes, const Wi
   glfwSetWindowRefreshCallback(window.get(), onDamage);
   GlRenderer renderer(table);
   const std::string name = glRendererName();
+  std::string textured;  // the scene whose textures the renderer has
   Picture picture;
   for (int frame = 0; glfwWindowShouldClose(window.get()) == GLFW_FALSE;) {
     int width = 0;
@@ -172,7 +173,14 @@ Picture showWindow(const ShaderTable& table, std::vector<Scene> scenes, const Wi
       const auto begin = std::chrono::steady_clock::now();
       const auto w = static_cast<std::size_t>(width);
       const auto h = static_cast<std::size_t>(height);
-      renderer.drawForDisplay(state.viewer.scene(w, h), w, h);
+      const Scene scene = state.viewer.scene(w, h);
+      if (scene.name != textured) {
+        std::vector<PrefilteredTexture> textures;
+        for (const LightTexture& t : scene.textures) textures.push_back(prefilter(t, {}));
+        renderer.useTextures(textures);
+        textured = scene.name;
+      }
+      renderer.drawForDisplay(scene, w, h);
       glFinish();
       const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
       ++frame;
