@@ -258,6 +258,11 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("--threads", a->threads, "Threads; 0 = all cores. Does not change the figures")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  command
+      ->add_flag("--window", a->window,
+                 "Show the scenes in a window instead, to turn and change by mouse and keys (printed then)")
+      ->excludes("--against")
+      ->excludes("--output");
   command->add_flag(
       "--cost", a->cost,
       "Also print what each variant of the look-up costs: texture fetches and scalar operations,\n"
