@@ -75,7 +75,6 @@ Film difference(const Film& a, const Film& b, double gain) {
 
 Picture contactSheet(const std::vector<std::string>& headings, const std::vector<SheetRow>& rows) {
   std::vector<std::size_t> widths;
-  for (const std::string& heading : headings) widths.push_back(heading.size() * (kLetterWidth + 1));
   std::size_t height = kLine + kGap;
   for (const SheetRow& row : rows) {
     std::size_t tallest = 0;
@@ -97,7 +96,9 @@ Picture contactSheet(const std::vector<std::string>& headings, const std::vector
   sheet.height = height;
   sheet.rgb.assign(3 * width * height, kBackground);
   std::size_t y = kGap;
-  for (std::size_t i = 0; i < headings.size(); ++i) write(sheet, left[i], y, headings[i]);
+  // cut where the column ends
+  for (std::size_t i = 0; i < std::min(headings.size(), widths.size()); ++i)
+    write(sheet, left[i], y, headings[i].substr(0, widths[i] / (kLetterWidth + 1)));
   y += kLine;
   for (const SheetRow& row : rows) {
     write(sheet, kGap, y, row.caption);

@@ -26,8 +26,8 @@ struct SheetRow {
   std::vector<Picture> pictures;
 };
 
-/// The rows below one another, each picture under the heading of its column; rows may have fewer pictures
-/// than there are headings. Dark background.
+/// The rows below one another, each picture under the heading of its column, which is cut to its width; rows
+/// may have fewer pictures than there are headings. Dark background.
 Picture contactSheet(const std::vector<std::string>& headings, const std::vector<SheetRow>& rows);
 
 }  // namespace ltcfit

@@ -188,7 +188,8 @@ std::vector<CheckScene> anisotropicScenes() {
   {
     Scene s;
     s.camera.position = Vector3d(0, -6.0, 2.2);
-    s.camera.target = Vector3d(0, 0, 0.6);
+    s.camera.target = Vector3d(0, 0, 0.9);
+    s.camera.verticalFov = 0.6;
     for (int i = 0; i < 4; ++i)
       s.surfaces.push_back(
           sphere(Vector3d(-2.1 + 1.4 * i, 0, 0.65), 0.6, brushed(0.5, 0.05, kQuarterTurn * i / 3.0)));

@@ -60,9 +60,9 @@ TEST(Letters, AllThatCaptionsUseAreDrawnAndDiffer) {
 }
 
 TEST(ContactSheet, PutsPicturesUnderTheirHeadings) {
-  Picture white{4, 3, std::vector<std::uint8_t>(36, 255)};
-  Picture red{4, 3, {}};
-  for (int i = 0; i < 12; ++i) red.rgb.insert(red.rgb.end(), {255, 0, 0});
+  Picture white{8, 3, std::vector<std::uint8_t>(72, 255)};
+  Picture red{8, 3, {}};
+  for (int i = 0; i < 24; ++i) red.rgb.insert(red.rgb.end(), {255, 0, 0});
   const Picture sheet = contactSheet({"l", "second"}, {{"x", {white, red}}, {"y", {white}}});
   ASSERT_EQ(sheet.rgb.size(), 3 * sheet.width * sheet.height);
   std::size_t reds = 0;
@@ -76,8 +76,8 @@ TEST(ContactSheet, PutsPicturesUnderTheirHeadings) {
     }
     if (p[0] == 255 && p[1] == 255) ++whites;
   }
-  EXPECT_EQ(reds, 12u);
-  EXPECT_EQ(whites, 24u);
+  EXPECT_EQ(reds, 24u);
+  EXPECT_EQ(whites, 48u);
   EXPECT_GT(leftmostRed, 6u + 6u);
   // the heading's L: its stem and foot
   const auto ink = [&](std::size_t x, std::size_t y) { return sheet.rgb[3 * (y * sheet.width + x)] > 200; };
