@@ -4,9 +4,10 @@
 #   out/ltc_iso.h,    out/ltc_aniso.h       the same as C/C++ headers
 #   out/ltc_iso.csv,  out/ltc_aniso.csv     one line an entry
 #   out/ltc_iso.txt,  out/ltc_aniso.txt     their error: nodes, off-grid, extreme
+#   out/shading_iso/, out/shading_aniso/    scenes shaded with them in OpenGL, next to the true light
 #   out/report.html,  out/report.json       all of it on one page, with error against run time and the stability of the fitters
 #                                           (out/pareto_iso.json, out/pareto_aniso.json, out/stability.json)
-# With --tables-only nothing but the tables, headers and .csv files: the measurements take eight of the nine minutes.
+# With --tables-only nothing but the tables, headers and .csv files: the measurements take nine of the ten minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
@@ -36,9 +37,18 @@ score ltc_aniso kt2022-alpha-lambda-theta-phi.npy 512
 for kind in iso aniso; do build/ltcfit pareto --table $kind -o out/pareto_$kind.json > out/pareto_$kind.txt; done
 # 3: a limit is broken, which the page shows
 build/ltcfit stability -o out/stability.json > out/stability.txt || [ $? -eq 3 ]
+shading=()
+check() { # TABLE REFERENCE
+  local against=()
+  if [ -f "$references/$2" ]; then against=(--against "$references/$2"); fi
+  build/ltcfit check-gl "out/ltc_$1.json" "${against[@]}" --cost -o "out/shading_$1" > "out/shading_$1.txt"
+  shading+=(--shading "out/shading_$1/shading.json")
+}
+check iso ltc2017-1.npy
+check aniso kt2022-alpha-lambda-theta-phi.npy
 against=()
 for reference in ltc2017-1.npy kt2022-alpha-lambda-theta-phi.npy; do
   if [ -f "$references/$reference" ]; then against+=(--against "$references/$reference"); fi
 done
 build/ltcfit report out/ltc_iso.json out/ltc_aniso.json "${against[@]}" --pareto out/pareto_iso.json \
-  --pareto out/pareto_aniso.json --stability out/stability.json -o out/report.html
+  --pareto out/pareto_aniso.json --stability out/stability.json "${shading[@]}" -o out/report.html
