@@ -171,7 +171,7 @@ function randomScenes(shading, scenes, id) {
     lost.length > 0
       ? element(
           'div',
-          { class: 'scenes small' },
+          { class: 'scenes small', tabindex: 0, role: 'region', 'aria-label': `Random scenes where ${against.name} is closer` },
           lost.map((scene) =>
             sceneCard(
               shading,
