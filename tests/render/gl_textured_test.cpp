@@ -31,13 +31,16 @@ Scene texturedScene() {
   for (Eigen::Vector3d& v : scene.lights[2].vertices) v += Eigen::Vector3d(0.5, -1.5, 0.4);
   scene.lights[0].texture = 1;
   scene.lights[1].texture = 0;
+  scene.textures = {stainedGlass(64, 5), colourGradient(32)};
   scene.camera.width = 120;
   scene.camera.height = 90;
   return scene;
 }
 
 std::vector<PrefilteredTexture> textures() {
-  return {prefilter(stainedGlass(64, 5), {}), prefilter(colourGradient(32), {})};
+  std::vector<PrefilteredTexture> out;
+  for (const LightTexture& picture : texturedScene().textures) out.push_back(prefilter(picture, {}));
+  return out;
 }
 
 TEST(GlTextured, AgreesWithTheTwin) {
