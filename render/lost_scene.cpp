@@ -23,10 +23,11 @@ std::string explainLostScene(const Scene& scene, const Film& film, const Film& o
     if (reference.kinds[i] == PixelKind::kSurface) peak = std::max(peak, reference.radiance[i].maxCoeff());
   double ours = 0.0;
   double theirs = 0.0;
-  double dark = 0.0;
-  double grazing = 0.0;
+  // of the pixels where the film is farther from the reference than the other
+  double excess = 0.0;
   double tooDark = 0.0;
-  double tooBright = 0.0;
+  double grazing = 0.0;
+  double dark = 0.0;
   for (std::size_t i = 0; i < film.radiance.size(); ++i) {
     if (film.kinds[i] != PixelKind::kSurface || other.kinds[i] != PixelKind::kSurface ||
         reference.kinds[i] != PixelKind::kSurface)
@@ -37,26 +38,25 @@ std::string explainLostScene(const Scene& scene, const Film& film, const Film& o
     const Eigen::Vector3d b = other.radiance[i] - reference.radiance[i];
     ours += a.squaredNorm();
     theirs += b.squaredNorm();
-    const double excess = a.squaredNorm() - b.squaredNorm();
-    if (reference.radiance[i].maxCoeff() < kDark * peak) {
-      dark += excess;
-    } else if (view.point.wo.z() < kGrazing) {
-      grazing += excess;
-    } else {
-      (a.sum() < 0.0 ? tooDark : tooBright) += excess;
-    }
+    const double here = a.squaredNorm() - b.squaredNorm();
+    if (here <= 0.0) continue;
+    excess += here;
+    if (a.sum() < 0.0) tooDark += here;
+    if (view.point.wo.z() < kGrazing) grazing += here;
+    if (reference.radiance[i].maxCoeff() < kDark * peak) dark += here;
   }
   const double ratio = std::sqrt(ours / theirs);
   if (!(ratio >= kTie))
-    return fmt::format("hardly: the errors are within {:.0f} %", 100.0 * (ratio - 1.0) + 0.5);
-  const double total = ours - theirs;
-  const double largest = std::max({dark, grazing, tooDark, tooBright});
-  const char* const where = largest == dark      ? "in the dark, where the light meets the lobe's tails only "
-                                                   "(below 2 % of the picture's largest radiance)"
-                            : largest == grazing ? "at grazing views, beyond 70 degrees"
-                            : largest == tooDark ? "where the reflection is too dark"
-                                                 : "where the reflection is too bright";
-  return fmt::format("{:.0f} % of the excess is {}", 100.0 * std::min(1.0, largest / total), where);
+    return fmt::format("hardly: the errors are within {:.0f} %", std::ceil(100.0 * (ratio - 1.0)));
+  const auto percent = [&](double part) { return fmt::format("{:.0f} %", 100.0 * part / excess); };
+  const bool isDark = tooDark > 0.5 * excess;
+  std::string out = fmt::format(
+      "of what is worse {} is too {}, {} seen beyond 70 degrees, {} in pixels below 2 % of the brightest",
+      percent(isDark ? tooDark : excess - tooDark), isDark ? "dark" : "bright", percent(grazing),
+      percent(dark));
+  if (scene.surfaces[0].material.f0 < 1.0)
+    out += "; F0 is below 1, where Fresnel tilts the true lobe and no table of F = 1 follows";
+  return out;
 }
 
 }  // namespace ltcfit

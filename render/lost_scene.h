@@ -8,9 +8,9 @@
 
 namespace ltcfit {
 
-/// One sentence on where the excess of squared error of `film` over that of `other` lies: in the dark, at
-/// grazing views, in a highlight that is too dark or too bright; or that there is hardly any. Films of the
-/// scene's size, surface pixels that differ in kind left out.
+/// One sentence: of the squared error that `film` has more than `other`, where it has more, the parts that
+/// are too dark or too bright, at grazing views and in dark pixels; or that there is hardly a difference.
+/// Films of the scene's size; pixels whose kinds differ are left out.
 std::string explainLostScene(const Scene& scene, const Film& film, const Film& other, const Film& reference);
 
 }  // namespace ltcfit

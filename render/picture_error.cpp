@@ -13,7 +13,15 @@ constexpr double kRelativeFloor = 0.01;
 
 }  // namespace
 
-PictureError pictureError(const Film& film, const Film& reference) {
+double brightest(const Film& film) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < film.radiance.size(); ++i)
+    if (film.kinds[i] == PixelKind::kSurface && film.radiance[i].allFinite())
+      out = std::max(out, film.radiance[i].maxCoeff());
+  return out;
+}
+
+PictureError pictureError(const Film& film, const Film& reference, double peak) {
   if (film.width != reference.width || film.height != reference.height) {
     std::fprintf(stderr, "pictureError: %zu x %zu against %zu x %zu\n", film.width, film.height,
                  reference.width, reference.height);
@@ -40,7 +48,7 @@ PictureError pictureError(const Film& film, const Film& reference) {
   const double mse = squares / static_cast<double>(e.pixels);
   e.rmse = std::sqrt(mse);
   e.relativeMse = relative / static_cast<double>(e.pixels);
-  if (mse > 0.0) e.psnr = std::min(kLargestPsnr, -10.0 * std::log10(mse));
+  if (mse > 0.0) e.psnr = std::min(kLargestPsnr, 20.0 * std::log10(peak) - 10.0 * std::log10(mse));
   return e;
 }
 

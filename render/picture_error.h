@@ -16,12 +16,15 @@ struct PictureError {
   std::size_t kindsDiffer = 0;
   double rmse = 0.0;         ///< root of the mean squared difference
   double relativeMse = 0.0;  ///< mean of (a - b)^2 / (b^2 + 0.01)
-  double psnr = 0.0;         ///< 10 log10(1 / MSE) in dB, for a peak of 1; 150 where it is higher
+  double psnr = 0.0;         ///< 10 log10(peak^2 / MSE) in dB; 150 where it is higher
   double largest = 0.0;      ///< largest difference of a channel
 };
 
-/// Films of one size; others are a caller's bug and abort. Without a pixel that counts all errors are 0 and
-/// the PSNR 150.
-PictureError pictureError(const Film& film, const Film& reference);
+/// Radiance of the brightest surface pixel, of any channel; 0 without any.
+double brightest(const Film& film);
+
+/// Films of one size; others are a caller's bug and abort. `peak` > 0: what the PSNR is of. Without a pixel
+/// that counts all errors are 0 and the PSNR 150.
+PictureError pictureError(const Film& film, const Film& reference, double peak = 1.0);
 
 }  // namespace ltcfit

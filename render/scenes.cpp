@@ -62,6 +62,10 @@ CheckScene named(Scene scene, const char* name, const char* title, double floor,
 }
 
 const char* const kRounding = "float32 look-up, inverse and edge sums, some 1e-6 each";
+// Emulated for the anisotropic table: 45 dB where weights have 8 bits; 97 dB with float32 weights.
+const char* const kMirror =
+    "the outline of a mirror's reflection moves with every bit, above all where texture units filter with 8 "
+    "bits";
 const char* const kSharp =
     "a sharp lobe moves by the rounding of its inverse, so that outlines of the reflection shift";
 
@@ -173,7 +177,7 @@ std::vector<CheckScene> isotropicScenes() {
     Scene s = groundAndSphere(glossy(1e-4));
     s.surfaces[1].material = glossy(1e-3);
     s.lights = {backLight(LightShape::kQuad)};
-    out.push_back(named(s, "mirror", "alpha 1e-4, the tables' floor, and a sphere of 1e-3", 50, kSharp));
+    out.push_back(named(s, "mirror", "alpha 1e-4, the tables' floor, and a sphere of 1e-3", 40, kMirror));
   }
   {
     Scene s = groundAndSphere(glossy(1.0));

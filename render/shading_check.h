@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace ltcfit {
 /// GL against the twin, dB: what a scene must reach with a table of halves, whatever it must with floats.
 inline constexpr double kHalfPsnrFloor = 40.0;
 
+/// F0 of the random dielectrics.
+inline constexpr double kDielectricF0 = 0.04;
+
 /// Whether its textures hold halves.
 inline bool isHalf(const ShaderTable& table) {
   return table.textures[0].precision == Precision::kHalf;
@@ -28,7 +32,7 @@ struct ShadingCheckOptions {
   std::optional<CustomScene> custom;  ///< this one instead of all others
   std::size_t width = 160;            ///< of named scenes, pixels
   std::size_t height = 120;
-  std::size_t randomScenes = 256;
+  std::size_t randomScenes = 256;    ///< a quarter of them once more with kDielectricF0
   std::size_t randomSize = 32;       ///< pixels along each side
   std::uint64_t seed = 1;            ///< of random scenes and of the reference's samples
   std::size_t maxSamples = 1 << 16;  ///< of each strategy and light at a pixel of the reference
@@ -39,7 +43,7 @@ struct ShadingCheckOptions {
 struct SceneCheck {
   CheckScene check;
   bool random = false;
-  PictureError gl;       ///< GL against the twin
+  PictureError gl;       ///< GL against the twin; its PSNR is of the twin's brightest pixel, 1 at most
   double glFloor = 0.0;  ///< dB, by the table's precision
   bool passed = false;   ///< GL is as near to the twin as asked, no pixel is NaN
 
@@ -62,16 +66,19 @@ struct SceneCheck {
   bool lost() const { return other && error.rmse > other->rmse; }
 };
 
-/// Means over the random scenes.
+/// Means over random scenes.
 struct RandomSummary {
   std::size_t scenes = 0;
   double rmse = 0.0;
   double otherRmse = 0.0;
-  std::size_t closer = 0;
+  double geometricRatio = 0.0;  ///< geometric mean of the ratios of the RMSEs, every scene alike
+  std::size_t closer = 0;       ///< SceneCheck::closer
+  std::size_t lost = 0;  ///< SceneCheck::lost; what remains is closer by less than the reference is exact
   std::size_t resolved = 0;
   double referenceRmse = 0.0;
   std::array<double, kHorizonClippings> clipping{};
 };
+RandomSummary summaryOf(std::span<const SceneCheck> scenes);
 
 struct FrameTime {
   std::string scene;
@@ -79,12 +86,13 @@ struct FrameTime {
 };
 
 struct ShadingCheck {
-  std::string renderer;  ///< as GL names itself
-  std::vector<SceneCheck> scenes;
-  std::vector<FrameTime> frames;  ///< at kFrameWidth x kFrameHeight
+  std::string renderer;                 ///< as GL names itself
+  std::vector<SceneCheck> scenes;       ///< named ones, then random ones
+  std::vector<SceneCheck> dielectrics;  ///< the first random ones with kDielectricF0
+  std::vector<FrameTime> frames;        ///< at kFrameWidth x kFrameHeight
 
   bool passed() const;
-  RandomSummary random() const;
+  RandomSummary random() const;  ///< of the random ones among the scenes
 };
 
 inline constexpr std::size_t kFrameWidth = 1280;

@@ -76,6 +76,20 @@ Json sceneToJson(const SceneCheck& s) {
           {"pictures", picturesToJson(s)}};
 }
 
+Json summaryToJson(const RandomSummary& s, bool compared) {
+  if (s.scenes == 0) return nullptr;
+  const auto comparison = [&](Json value) { return compared ? value : Json(); };
+  return {{"scenes", s.scenes},
+          {"rmse", figure(s.rmse)},
+          {"against_rmse", comparison(figure(s.otherRmse))},
+          {"geometric_ratio", comparison(figure(s.geometricRatio))},
+          {"closer", comparison(s.closer)},
+          {"lost", comparison(s.lost)},
+          {"resolved", s.resolved},
+          {"reference_rmse", figure(s.referenceRmse)},
+          {"clipping", clippingToJson(s.clipping)}};
+}
+
 Json costToJson(const ShaderVariantCost& c) {
   Json special = Json::object();
   for (const auto& [name, count] : c.cost.special) special[name] = count;
@@ -106,18 +120,10 @@ Json shadingToJson(const CheckedTable& table, const CheckedTable& against, const
            {"passed", check.passed()}};
   out["scenes"] = Json::array();
   for (const SceneCheck& s : check.scenes) out["scenes"].push_back(sceneToJson(s));
-  const RandomSummary random = check.random();
-  out["random"] = nullptr;
-  if (random.scenes > 0) {
-    const bool compared = against.table != nullptr;
-    out["random"] = {{"scenes", random.scenes},
-                     {"rmse", figure(random.rmse)},
-                     {"against_rmse", compared ? figure(random.otherRmse) : Json()},
-                     {"closer", compared ? Json(random.closer) : Json()},
-                     {"resolved", random.resolved},
-                     {"reference_rmse", figure(random.referenceRmse)},
-                     {"clipping", clippingToJson(random.clipping)}};
-  }
+  const bool compared = against.table != nullptr;
+  out["random"] = summaryToJson(check.random(), compared);
+  out["dielectric"] = summaryToJson(summaryOf(check.dielectrics), compared);
+  if (!out["dielectric"].is_null()) out["dielectric"]["f0"] = kDielectricF0;
   out["cost"] = Json::array();
   for (const ShaderVariantCost& c : costs) out["cost"].push_back(costToJson(c));
   out["frames"] = Json::array();

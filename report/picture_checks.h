@@ -10,7 +10,7 @@ namespace ltcfit {
 
 /// Largest side of a picture, and all pixels of a file together: a page with more would not open.
 inline constexpr std::size_t kMostPictureSide = 4096;
-inline constexpr std::size_t kMostPicturePixels = 64000000;
+inline constexpr std::size_t kMostPicturePixels = 256000000;
 
 /// Asks of every picture of a file that it is a PNG in base64 (RFC 4648, padded) that decodes whole.
 class PictureChecks {

@@ -261,6 +261,19 @@ void requireRandom(const JsonFields& file, bool hasOther, const RandomScenes& su
     requireMean(*clipping, way.c_str(), sum / static_cast<double>(sums.clipped));
 }
 
+// Figures of random scenes that are not listed one by one.
+void requireDielectric(const JsonFields& file, bool hasOther) {
+  if (!file.has("dielectric")) return;
+  const std::optional<JsonFields> sums = unlessNull(file, "dielectric");
+  if (!sums) return;
+  requireWithin(*sums, "f0", 0.0, 1.0);
+  requireSome(*sums, {"scenes"});
+  requireError(*sums, "rmse");
+  if (!hasOther) return;
+  requireError(*sums, "against_rmse");
+  requireCount(*sums, "closer", 0, sums->get("scenes").get<std::uint64_t>());
+}
+
 void requireCost(const JsonFields& cost) {
   requireTexts(cost, {"name"});
   requireCounts(cost, {"fetches", "arithmetic", "selects", "branches", "total"});
@@ -298,6 +311,7 @@ void checkShading(const JsonFields& file) {
   if (file.get("passed").get<bool>() != (failed == 0))
     throw InputError(fmt::format("passed is {}, and {} scenes fail", failed != 0, failed));
   requireRandom(file, against.has_value(), sums);
+  requireDielectric(file, against.has_value());
   forEach(file, "cost", requireCost);
   forEach(file, "frames", [](const JsonFields& frame) {
     requireTexts(frame, {"scene"});

@@ -9,7 +9,7 @@
 namespace ltcfit {
 
 /// Largest file taken: some fifty scenes with five pictures of 200 KiB.
-inline constexpr std::size_t kShadingBytes = std::size_t{64} << 20;
+inline constexpr std::size_t kShadingBytes = std::size_t{256} << 20;
 
 /// The JSON that `ltcfit check-gl` wrote (shading.json), every field that the page reads checked for its type
 /// and range, and fields against one another, so that the page cannot fail on it and its sentences are those

@@ -46,6 +46,14 @@ function shadingSummary(shading, named, random) {
       ]);
     }
   }
+  const dull = shading.dielectric;
+  if (dull) {
+    items.push([
+      `With F0 = ${numberText(dull.f0)} in ${countText(dull.scenes)} of these scenes the mean RMSE is ${numberText(dull.rmse)}`,
+      against ? `, that of ${against.name} ${numberText(dull.against_rmse)}; closer in ${partText(dull.closer, dull.scenes)}` : '',
+      '. There Fresnel tilts the true lobe, which a table of F = 1 does not follow, however well it is fitted.',
+    ]);
+  }
   items.push([
     'The reference\u2019s own error is at most a tenth of what it judges in ',
     means ? `${resolved(random)} random scenes, in the mean ${numberText(means.reference_rmse)}` : '',

@@ -9,7 +9,7 @@ fi
 
 "$ltcfit" check-gl "$source_dir/data/ltc_aniso.ktx2" --light star --alpha-x 0.3 --alpha-y 0.06 --angle 30 --width 48 --height 36 \
   --threads 1 -o "$work/star" >"$work/text" || fail "one scene"
-grep -q "all scenes passed" "$work/text" || fail "$(cat "$work/text")"
+grep -q "GL agrees with its twin in all 1 scenes" "$work/text" || fail "$(cat "$work/text")"
 for name in shading.json custom.png custom.exr contact.png; do
   [ -s "$work/star/$name" ] || fail "$name is missing"
 done
@@ -49,6 +49,13 @@ expect_bad "--light" "$source_dir/data/ltc_iso.json" --light tube
 expect_bad "isotropic" "$source_dir/data/ltc_iso.json" --alpha-x 0.5 --alpha-y 0.1
 expect_bad "anisotropic" "$source_dir/data/ltc_iso.json" --against "$source_dir/data/ltc_aniso.json"
 expect_bad "--alpha-x" "$source_dir/data/ltc_iso.json" --alpha-x 0
+expect_bad "--angle" "$source_dir/data/ltc_iso.json" --angle nan
+expect_bad "--alpha-x" "$source_dir/data/ltc_iso.json" --alpha-x nan
+"$ltcfit" check-gl "$source_dir/data/ltc_iso.json" --angle 0 --width 16 --height 16 --samples 129 >/dev/null || fail "--samples 129"
+mkdir "$work/own" && cp "$source_dir/data/ltc_iso.json" "$work/own/shading.json"
+expect_bad "would overwrite" "$work/own/shading.json" --light quad -o "$work/own"
+expect_bad "would overwrite" "$source_dir/data/ltc_iso.json" --against "$work/own/shading.json" --light quad -o "$work/own"
+cmp "$source_dir/data/ltc_iso.json" "$work/own/shading.json" || fail "the input was changed"
 echo file >"$work/file"
 expect_bad "file" "$source_dir/data/ltc_iso.json" -o "$work/file"
 head -c 3000 "$source_dir/data/ltc_iso.ktx2" >"$work/cut.ktx2"

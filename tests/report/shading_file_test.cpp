@@ -223,6 +223,15 @@ TEST(ShadingFile, VerdictsAreThoseOfTheirFigures) {
 }
 
 TEST(ShadingFile, SumsAreThoseOfTheScenes) {
+  const Json dielectric{
+      {"f0", 0.04}, {"scenes", 2}, {"rmse", 0.001}, {"against_rmse", 0.0005}, {"closer", 1}};
+  EXPECT_EQ(damaged("/dielectric", dielectric), "accepted");
+  EXPECT_EQ(damaged("/dielectric", nullptr), "accepted");
+  for (const char* const field : {"f0", "scenes", "rmse", "against_rmse", "closer"}) {
+    Json broken = dielectric;
+    broken[field] = field == std::string("scenes") ? Json(0) : Json(-1.0);
+    EXPECT_NE(damaged("/dielectric", broken).find(field), std::string::npos) << field;
+  }
   EXPECT_EQ(damaged("/random", nullptr), "f.json: random is null, and 2 scenes are random");
   EXPECT_EQ(damaged("/random/scenes", 3), "f.json: random.scenes is 3, and of the scenes listed it is 2");
   EXPECT_EQ(damaged("/random/closer", 2), "f.json: random.closer is 2, and of the scenes listed it is 1");
@@ -290,8 +299,8 @@ TEST(ShadingFile, PicturesAreWholePngsOfAllowedSize) {
     }
     return std::string("accepted");
   };
-  for (int i = 0; i < 16; ++i) EXPECT_EQ(next(), "p.ltc: PNG: cut off");
-  EXPECT_EQ(next(), "p.ltc: with it, the pictures have more than 64000000 pixels");
+  for (int i = 0; i < 64; ++i) EXPECT_EQ(next(), "p.ltc: PNG: cut off");
+  EXPECT_EQ(next(), "p.ltc: with it, the pictures have more than 256000000 pixels");
 }
 
 TEST(ShadingFile, EveryTruncationIsRefused) {

@@ -159,10 +159,17 @@ export async function layout(page) {
       if (rect.width > 0 && (rect.right > innerWidth + 1 || rect.left < -1))
         found.push(`${name(e)} ends at ${Math.round(rect.right)}`);
     }
+    // what a list that scrolls hides is not there
+    const shownPart = (e) => {
+      const own = e.getBoundingClientRect();
+      const list = e.closest('.scenes.small')?.getBoundingClientRect() ?? own;
+      const edges = { left: own.left, right: own.right, top: Math.max(own.top, list.top) };
+      return { ...edges, width: own.width, bottom: Math.min(own.bottom, list.bottom) };
+    };
     const apart = (elements) =>
       elements.forEach((e, i) =>
         elements.slice(0, i).forEach((other) => {
-          const [a, b] = [e.getBoundingClientRect(), other.getBoundingClientRect()];
+          const [a, b] = [shownPart(e), shownPart(other)];
           if (
             a.width > 0 &&
             Math.min(a.right, b.right) - Math.max(a.left, b.left) > 0.5 &&
