@@ -48,13 +48,45 @@ std::string failed(const char* call) {
   return fmt::format("{}: {}", call, eglErrorName(eglGetError()));
 }
 
-bool hasExtension(EGLDisplay display, std::string_view name) {
-  const char* const list = eglQueryString(display, EGL_EXTENSIONS);
+// `list` as EGL returns them: separated by blanks, or null with an error set.
+bool lists(const char* list, std::string_view extension) {
   if (list == nullptr) {
     eglGetError();
     return false;
   }
-  return fmt::format(" {} ", list).find(fmt::format(" {} ", name)) != std::string::npos;
+  return fmt::format(" {} ", list).find(fmt::format(" {} ", extension)) != std::string::npos;
+}
+
+bool hasExtension(EGLDisplay display, std::string_view name) {
+  return lists(eglQueryString(display, EGL_EXTENSIONS), name);
+}
+
+struct Device {
+  std::string name;
+  EGLDeviceEXT device;
+  bool hardware;  // known to be
+};
+
+std::vector<Device> eglDevices() {
+  const bool base = hasExtension(EGL_NO_DISPLAY, "EGL_EXT_device_base");
+  if (!hasExtension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
+      !(base || hasExtension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")))
+    return {};
+  std::array<EGLDeviceEXT, 32> devices{};
+  EGLint count = 0;
+  if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_FALSE) {
+    eglGetError();
+    return {};
+  }
+  const bool canTell = base || hasExtension(EGL_NO_DISPLAY, "EGL_EXT_device_query");
+  std::vector<Device> out;
+  for (EGLint i = 0; i < count; ++i) {
+    EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+    const char* const list = canTell ? eglQueryDeviceStringEXT(device, EGL_EXTENSIONS) : nullptr;
+    const bool hardware = list != nullptr && !lists(list, "EGL_MESA_device_software");
+    out.push_back({fmt::format("device {}", i), device, hardware});
+  }
+  return out;
 }
 
 struct DisplayChoice {
@@ -62,7 +94,8 @@ struct DisplayChoice {
   EGLDisplay display;
 };
 
-// In the order in which they are tried; `tried` says why one could not be asked for.
+// In the order in which they are tried; `tried` says why one could not be asked for. Mesa's surfaceless
+// platform knows Mesa's drivers alone: where the GPU has another one, that gives a software renderer.
 std::vector<DisplayChoice> displayChoices(std::string& tried) {
   std::vector<DisplayChoice> choices;
   const auto add = [&](const std::string& name, EGLDisplay display, const char* call) {
@@ -73,22 +106,21 @@ std::vector<DisplayChoice> displayChoices(std::string& tried) {
     }
   };
   if (hasExtension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
+    const std::vector<Device> devices = eglDevices();
+    const auto addDevices = [&](bool hardware) {
+      for (const Device& d : devices) {
+        if (d.hardware != hardware) continue;
+        add(d.name, eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, d.device, nullptr),
+            "eglGetPlatformDisplayEXT");
+      }
+    };
+    addDevices(true);
     if (hasExtension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
       add("surfaceless platform",
           eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
           "eglGetPlatformDisplayEXT");
     }
-    if (hasExtension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
-      std::array<EGLDeviceEXT, 32> devices{};
-      EGLint count = 0;
-      if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_FALSE)
-        count = 0;
-      for (EGLint i = 0; i < count; ++i) {
-        add(fmt::format("device {}", i),
-            eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr),
-            "eglGetPlatformDisplayEXT");
-      }
-    }
+    addDevices(false);
   }
   add("default display", eglGetDisplay(EGL_DEFAULT_DISPLAY), "eglGetDisplay");
   return choices;

@@ -14,8 +14,8 @@ class GlError : public std::runtime_error {
 
 /// A context of OpenGL 3.3 core or later, or of OpenGL ES 3.0 or later where that is all there is, made by
 /// EGL and current in the thread that made it, without a surface to draw on (framebuffer objects only).
-/// Displays tried: Mesa's surfaceless platform, every EGL device, the default display. Any number may follow
-/// or overlap each other.
+/// Displays tried: EGL devices that are hardware, Mesa's surfaceless platform, all other EGL devices, the
+/// default display. Any number may follow or overlap each other.
 class GlContext {
  public:
   /// Throws GlError that says what was tried, what failed and what to install. The libraries themselves are
