@@ -10,6 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "render/gl_context.h"
 
@@ -67,6 +68,32 @@ std::string sceneDefines(const Scene& scene, std::size_t textures) {
   define("ONE_SIDED", anyLight([](const PolygonLight& l) { return !l.twoSided; }));
   define("TWO_SIDED", anyLight([](const PolygonLight& l) { return l.twoSided; }));
   return text;
+}
+
+// An upper bound: a uniform that is no array takes at most one vector of 4 components, however the driver
+// packs them; samplers are counted though few drivers do.
+std::size_t uniformComponents(const Scene& scene, std::size_t textures) {
+  constexpr std::size_t kOfSurface = 11;  // members of scene.glsl's structs
+  constexpr std::size_t kOfLight = 6;
+  constexpr std::size_t kOfCamera = 5;
+  constexpr std::size_t kOfTable = 2;
+  constexpr std::size_t kOfTexture = 2;
+  return 4 * (scene.surfaces.size() * kOfSurface + scene.lights.size() * (kOfLight + mostVertices(scene)) +
+              kOfCamera + kOfTable + (isTextured(scene) ? textures * kOfTexture : 0));
+}
+
+void requireUniforms(const Scene& scene, std::size_t textures) {
+  GLint most = 0;
+  if (epoxy_is_desktop_gl()) {
+    glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &most);
+  } else {
+    glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_VECTORS, &most);
+    most *= 4;
+  }
+  const std::size_t needed = uniformComponents(scene, textures);
+  if (std::cmp_less_equal(needed, most)) return;
+  throw GlError(fmt::format("OpenGL: scene '{}' needs up to {} uniform components, this context has {}",
+                            scene.name, needed, most));
 }
 
 // Uniforms of a program, by name; those that its #defines left out are passed over.
@@ -177,6 +204,7 @@ void GlRenderer::prepare(const Scene& scene, std::size_t width, std::size_t heig
       tableDefines_ + sceneDefines(scene, lightTextures_.size()) + (forDisplay ? "#define DISPLAY\n" : "");
   auto program = programs_.find(defines);
   if (program == programs_.end()) {
+    requireUniforms(scene, lightTextures_.size());
     const std::string_view version = epoxy_is_desktop_gl() ? "#version 330 core\n" : "#version 300 es\n";
     const std::array<std::string_view, 2> vertex{version, shaderText("picture.glsl")};
     const std::array<std::string_view, 5> fragment{version, defines, ltcGlsl_,

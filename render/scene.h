@@ -12,7 +12,9 @@
 
 namespace ltcfit {
 
-/// Largest numbers of a scene that the GL shader has room for.
+/// Largest numbers of a scene. They bound the GL shader's size, not its need of uniforms: all three at once,
+/// with every texture, are 1372 components, while OpenGL 3.3 promises 1024 and OpenGL ES 3.0 896. GlRenderer
+/// throws GlError where a context has fewer than a scene needs.
 inline constexpr std::size_t kMaxSurfaces = 8;
 inline constexpr std::size_t kMaxLights = 8;
 inline constexpr std::size_t kMaxLightVertices = 24;

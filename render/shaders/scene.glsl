@@ -1,5 +1,6 @@
 // Fragment shader of the shading check: what render/scene.cpp sees in a pixel, shaded with the functions of
-// ltc.glsl and ltc_textured.glsl, whose text stands before this one. What a scene does not need is not compiled; defined before:
+// ltc.glsl and ltc_textured.glsl, whose text stands before this one. What a scene does not need is not
+// compiled; defined before:
 //   SURFACES, LIGHTS  how many there are; LTC_MAX_VERTICES: of the light that has most
 //   RECTANGLES, SPHERES, RAMPS  surfaces of that kind, materials with a ramp
 //   FRESNEL, DIFFUSE  some f0 below 1, some base that is not black

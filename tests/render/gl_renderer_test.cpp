@@ -1,6 +1,7 @@
 // What OpenGL draws against the double-precision twin.
 #include "render/gl_renderer.h"
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -226,6 +227,100 @@ TEST_F(GlRendererTest, ErrorsNameWhatIsWrong) {
   EXPECT_NE(message(renderer, large).find("a float picture of 65536 x"), std::string::npos);
   // nothing of that stays behind
   EXPECT_EQ(message(renderer, scene), "");
+}
+
+// A context that has few uniforms; epoxy calls OpenGL through pointers.
+class FewUniforms {
+ public:
+  explicit FewUniforms(GLint components) {
+    components_ = components;
+    original_ = epoxy_glGetIntegerv;
+    epoxy_glGetIntegerv = [](GLenum name, GLint* out) {
+      original_(name, out);
+      if (name == GL_MAX_FRAGMENT_UNIFORM_COMPONENTS) *out = components_;
+      if (name == GL_MAX_FRAGMENT_UNIFORM_VECTORS) *out = components_ / 4;
+    };
+  }
+  ~FewUniforms() { epoxy_glGetIntegerv = original_; }
+  FewUniforms(const FewUniforms&) = delete;
+  FewUniforms& operator=(const FewUniforms&) = delete;
+
+ private:
+  static inline GLint components_ = 0;
+  static inline decltype(epoxy_glGetIntegerv) original_ = nullptr;
+};
+
+// What the message says; 0 where the scene is drawn.
+int neededUniforms(const ShaderTable& table, const Scene& scene, GLint components) {
+  const FewUniforms few(components);
+  GlRenderer renderer(table);
+  try {
+    renderer.render(scene);
+  } catch (const GlError& error) {
+    int needed = 0;
+    int has = 0;
+    const std::string text = error.what();
+    const std::size_t at = text.find("needs up to");
+    if (at == std::string::npos ||
+        std::sscanf(text.c_str() + at, "needs up to %d uniform components, this context has %d", &needed,
+                    &has) != 2)
+      ADD_FAILURE() << text;
+    EXPECT_EQ(has, components);
+    return needed;
+  }
+  return 0;
+}
+
+// Vectors of 4 that the current program's uniforms take, one or an array's elements each.
+int activeVectors() {
+  GLint program = 0;
+  GLint count = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  glGetProgramiv(static_cast<GLuint>(program), GL_ACTIVE_UNIFORMS, &count);
+  int sum = 0;
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    GLint size = 0;
+    GLenum type = 0;
+    GLchar name[64];
+    glGetActiveUniform(static_cast<GLuint>(program), i, sizeof name, nullptr, &size, &type, name);
+    sum += size;
+  }
+  return sum;
+}
+
+TEST_F(GlRendererTest, SaysWhereAContextHasTooFewUniforms) {
+  const ShaderTable table = dataTable("ltc_aniso.json");
+  const Scene scene = smaller(sceneNamed("brushed-spheres", table).value());
+  const int needed = neededUniforms(table, scene, 4);
+  EXPECT_GT(neededUniforms(table, scene, needed - 4), 0);
+  EXPECT_EQ(neededUniforms(table, scene, needed), 0);
+  GlRenderer renderer(table);
+  renderer.render(scene);
+  EXPECT_GE(needed, 4 * activeVectors());
+  EXPECT_GT(activeVectors(), 4);
+
+  Scene most = scene;
+  most.surfaces.resize(kMaxSurfaces, scene.surfaces[0]);
+  most.lights.assign(kMaxLights, scene.lights[0]);
+  most.lights[0] = makeLight(LightShape::kDisk, Eigen::Vector3d(2.0, 1.0, 0.4),
+                             Eigen::Vector3d(-1.0, -0.4, 0.1), Eigen::Vector2d(0.6, 0.6));
+  EXPECT_EQ(neededUniforms(table, most, 4), 1372 - 4 * 2 * static_cast<int>(kMaxLightTextures));
+}
+
+// Named and random scenes, by what OpenGL ES 3.0 promises at least.
+TEST_F(GlRendererTest, OwnScenesAreWithinEveryContextsUniforms) {
+  constexpr int kPromised = 4 * 224;
+  for (const char* name : {"ltc_iso.json", "ltc_aniso.json"}) {
+    const ShaderTable table = dataTable(name);
+    std::vector<Scene> scenes;
+    for (const CheckScene& check : namedScenes(!table.isIsotropic())) scenes.push_back(check.scene);
+    for (std::uint64_t i = 0; i < 100; ++i) scenes.push_back(randomScene(1, i, !table.isIsotropic(), 32));
+    int most = 0;
+    for (const Scene& scene : scenes) most = std::max(most, neededUniforms(table, scene, 4));
+    std::printf("  %s: %d components at most\n", name, most);
+    EXPECT_GT(most, 100);
+    EXPECT_LE(most, kPromised);
+  }
 }
 
 // Without desktop OpenGL: the renderer's name, and how far a picture of both kinds of tables is off.
