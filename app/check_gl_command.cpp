@@ -36,6 +36,7 @@ struct CheckGlArguments {
   std::int64_t width = static_cast<std::int64_t>(ShadingCheckOptions{}.width);
   std::int64_t height = static_cast<std::int64_t>(ShadingCheckOptions{}.height);
   std::int64_t randomScenes = static_cast<std::int64_t>(ShadingCheckOptions{}.randomScenes);
+  double f0 = ShadingCheckOptions{}.dielectricF0;
   std::int64_t samples = static_cast<std::int64_t>(ShadingCheckOptions{}.maxSamples);
   std::int64_t seed = 1;
   int threads = 0;
@@ -53,8 +54,10 @@ std::string fileName(const std::string& path) {
 
 // CLI11's ranges let NaN through, and an empty name is a variable that was not set.
 void checkArguments(const CheckGlArguments& a) {
-  for (const auto& [name, value] :
-       {std::pair{"--alpha-x", a.alphaX}, {"--alpha-y", a.alphaY}, {"--angle", a.angle.value_or(0.0)}}) {
+  for (const auto& [name, value] : {std::pair{"--alpha-x", a.alphaX},
+                                    {"--alpha-y", a.alphaY},
+                                    {"--angle", a.angle.value_or(0.0)},
+                                    {"--f0", a.f0}}) {
     if (!std::isfinite(value)) throw InputError(fmt::format("{}: {} is not a number", name, value));
   }
 }
@@ -64,6 +67,7 @@ ShadingCheckOptions toOptions(const CheckGlArguments& a) {
   o.width = static_cast<std::size_t>(a.width);
   o.height = static_cast<std::size_t>(a.height);
   o.randomScenes = static_cast<std::size_t>(a.randomScenes);
+  o.dielectricF0 = a.f0;
   o.maxSamples = std::bit_ceil(static_cast<std::size_t>(a.samples));
   o.seed = static_cast<std::uint64_t>(a.seed);
   o.threads = a.threads;
@@ -88,7 +92,7 @@ std::string commandOf(const CheckGlArguments& a) {
   if (a.alphaY > 0.0) out += fmt::format(" --alpha-y {}", a.alphaY);
   if (a.angle) out += fmt::format(" --angle {}", *a.angle);
   out += fmt::format(" --width {} --height {}", a.width, a.height);
-  if (!a.isCustom()) out += fmt::format(" --random {}", a.randomScenes);
+  if (!a.isCustom()) out += fmt::format(" --random {} --f0 {}", a.randomScenes, a.f0);
   return out + fmt::format(" --samples {} --seed {}", a.samples, a.seed);
 }
 
@@ -158,8 +162,9 @@ void printCheck(const CheckGlArguments& a, const ShadingCheckOptions& options, c
   }
   if (!check.dielectrics.empty()) {
     fmt::print(
-        "the first {} of them with f0 = {}: there Fresnel tilts the lobe, which no table of F = 1 follows\n",
-        check.dielectrics.size(), kDielectricF0);
+        "the first {} of them with f0 = {}: the less, the more Fresnel tilts the lobe, which no table of F = "
+        "1\nfollows\n",
+        check.dielectrics.size(), options.dielectricF0);
     printSummary(summaryOf(check.dielectrics), compared);
   }
   bool first = true;
@@ -307,8 +312,11 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
   command
       ->add_option("--random", a->randomScenes,
                    "Number of random scenes, 32 x 32 pixels each, 0..10000; a quarter of them\n"
-                   "once more with f0 = 0.04")
+                   "once more with --f0")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{10000}))
+      ->capture_default_str();
+  command->add_option("--f0", a->f0, "Reflectance at normal incidence of the repeated random scenes, 0..1")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command
       ->add_option("--samples", a->samples,

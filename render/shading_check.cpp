@@ -182,7 +182,7 @@ ShadingCheck runShadingCheck(const ShaderTable& table, const ShaderTable* other,
   for (std::size_t i = 0; i < dielectrics; ++i) {
     progress(out.scenes.size() + i, total);
     Scene scene = randomScene(options.seed, i, anisotropic, options.randomSize);
-    for (Surface& surface : scene.surfaces) surface.material.f0 = kDielectricF0;
+    for (Surface& surface : scene.surfaces) surface.material.f0 = options.dielectricF0;
     out.dielectrics.push_back(judge({scene, 50.0, ""}, gl, table, against, options));
     out.dielectrics.back().random = true;
   }

@@ -20,9 +20,6 @@ namespace ltcfit {
 /// GL against the twin, dB: what a scene must reach with a table of halves, whatever it must with floats.
 inline constexpr double kHalfPsnrFloor = 40.0;
 
-/// F0 of the random dielectrics.
-inline constexpr double kDielectricF0 = 0.04;
-
 /// Whether its textures hold halves.
 inline bool isHalf(const ShaderTable& table) {
   return table.textures[0].precision == Precision::kHalf;
@@ -32,7 +29,8 @@ struct ShadingCheckOptions {
   std::optional<CustomScene> custom;  ///< this one instead of all others
   std::size_t width = 160;            ///< of named scenes, pixels
   std::size_t height = 120;
-  std::size_t randomScenes = 256;    ///< a quarter of them once more with kDielectricF0
+  std::size_t randomScenes = 256;    ///< a quarter of them once more with dielectricF0
+  double dielectricF0 = 0.04;        ///< 0..1
   std::size_t randomSize = 32;       ///< pixels along each side
   std::uint64_t seed = 1;            ///< of random scenes and of the reference's samples
   std::size_t maxSamples = 1 << 16;  ///< of each strategy and light at a pixel of the reference
@@ -88,7 +86,7 @@ struct FrameTime {
 struct ShadingCheck {
   std::string renderer;                 ///< as GL names itself
   std::vector<SceneCheck> scenes;       ///< named ones, then random ones
-  std::vector<SceneCheck> dielectrics;  ///< the first random ones with kDielectricF0
+  std::vector<SceneCheck> dielectrics;  ///< the first random ones with the option's F0
   std::vector<FrameTime> frames;        ///< at kFrameWidth x kFrameHeight
 
   bool passed() const;

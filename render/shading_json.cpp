@@ -123,7 +123,7 @@ Json shadingToJson(const CheckedTable& table, const CheckedTable& against, const
   const bool compared = against.table != nullptr;
   out["random"] = summaryToJson(check.random(), compared);
   out["dielectric"] = summaryToJson(summaryOf(check.dielectrics), compared);
-  if (!out["dielectric"].is_null()) out["dielectric"]["f0"] = kDielectricF0;
+  if (!out["dielectric"].is_null()) out["dielectric"]["f0"] = figure(options.dielectricF0);
   out["cost"] = Json::array();
   for (const ShaderVariantCost& c : costs) out["cost"].push_back(costToJson(c));
   out["frames"] = Json::array();
