@@ -69,6 +69,88 @@ struct Instruction {
   std::vector<std::uint32_t> operands;  // those behind type and result, first word of each
 };
 
+// Declarations, registers, memory, structure of branches (which their conditions count for), and negation, a
+// modifier of operands.
+bool isFree(spv::Op op) {
+  switch (op) {
+    case spv::OpNop:
+    case spv::OpUndef:
+    case spv::OpSource:
+    case spv::OpSourceContinued:
+    case spv::OpSourceExtension:
+    case spv::OpModuleProcessed:
+    case spv::OpName:
+    case spv::OpMemberName:
+    case spv::OpString:
+    case spv::OpLine:
+    case spv::OpNoLine:
+    case spv::OpCapability:
+    case spv::OpExtension:
+    case spv::OpExtInstImport:
+    case spv::OpMemoryModel:
+    case spv::OpEntryPoint:
+    case spv::OpExecutionMode:
+    case spv::OpDecorate:
+    case spv::OpMemberDecorate:
+    case spv::OpDecorationGroup:
+    case spv::OpGroupDecorate:
+    case spv::OpGroupMemberDecorate:
+    case spv::OpTypeVoid:
+    case spv::OpTypeBool:
+    case spv::OpTypeInt:
+    case spv::OpTypeFloat:
+    case spv::OpTypeVector:
+    case spv::OpTypeMatrix:
+    case spv::OpTypeImage:
+    case spv::OpTypeSampler:
+    case spv::OpTypeSampledImage:
+    case spv::OpTypeArray:
+    case spv::OpTypeRuntimeArray:
+    case spv::OpTypeStruct:
+    case spv::OpTypePointer:
+    case spv::OpTypeFunction:
+    case spv::OpConstantTrue:
+    case spv::OpConstantFalse:
+    case spv::OpConstant:
+    case spv::OpConstantComposite:
+    case spv::OpConstantNull:
+    case spv::OpFunction:
+    case spv::OpFunctionParameter:
+    case spv::OpFunctionEnd:
+    case spv::OpVariable:
+    case spv::OpLoad:
+    case spv::OpStore:
+    case spv::OpCopyMemory:
+    case spv::OpAccessChain:
+    case spv::OpInBoundsAccessChain:
+    case spv::OpVectorExtractDynamic:
+    case spv::OpVectorInsertDynamic:
+    case spv::OpVectorShuffle:
+    case spv::OpCompositeConstruct:
+    case spv::OpCompositeExtract:
+    case spv::OpCompositeInsert:
+    case spv::OpCopyObject:
+    case spv::OpTranspose:
+    case spv::OpBitcast:
+    case spv::OpSampledImage:
+    case spv::OpImage:
+    case spv::OpFNegate:
+    case spv::OpSNegate:
+    case spv::OpPhi:
+    case spv::OpLabel:
+    case spv::OpLoopMerge:
+    case spv::OpSelectionMerge:
+    case spv::OpBranch:
+    case spv::OpKill:
+    case spv::OpReturn:
+    case spv::OpReturnValue:
+    case spv::OpUnreachable:
+      return true;
+    default:
+      return false;
+  }
+}
+
 class Counter {
  public:
   explicit Counter(const std::vector<std::uint32_t>& module) {
@@ -132,8 +214,11 @@ class Counter {
       case spv::OpImageSampleDrefExplicitLod:
       case spv::OpImageSampleProjImplicitLod:
       case spv::OpImageSampleProjExplicitLod:
+      case spv::OpImageSampleProjDrefImplicitLod:
+      case spv::OpImageSampleProjDrefExplicitLod:
       case spv::OpImageFetch:
       case spv::OpImageGather:
+      case spv::OpImageDrefGather:
         ++cost_.fetches;
         break;
       case spv::OpImageQuerySizeLod:
@@ -176,6 +261,8 @@ class Counter {
       case spv::OpSGreaterThan:
       case spv::OpSGreaterThanEqual:
       case spv::OpULessThan:
+      case spv::OpULessThanEqual:
+      case spv::OpUGreaterThan:
       case spv::OpUGreaterThanEqual:
       case spv::OpFOrdEqual:
       case spv::OpFOrdNotEqual:
@@ -189,7 +276,18 @@ class Counter {
       case spv::OpFUnordLessThanEqual:
       case spv::OpFUnordGreaterThan:
       case spv::OpFUnordGreaterThanEqual:
+      case spv::OpDPdx:
+      case spv::OpDPdy:
+      case spv::OpDPdxFine:
+      case spv::OpDPdyFine:
+      case spv::OpDPdxCoarse:
+      case spv::OpDPdyCoarse:
         cost_.arithmetic += n;
+        break;
+      case spv::OpFwidth:
+      case spv::OpFwidthFine:
+      case spv::OpFwidthCoarse:
+        cost_.arithmetic += 3 * n;  // both derivatives and their sum
         break;
       case spv::OpDot:
       case spv::OpAny:
@@ -211,6 +309,10 @@ class Counter {
       case spv::OpSDiv:
       case spv::OpUDiv:
       case spv::OpFMod:
+      case spv::OpFRem:
+      case spv::OpSMod:
+      case spv::OpSRem:
+      case spv::OpUMod:
         addSpecial("division", n);
         break;
       case spv::OpSelect:
@@ -226,7 +328,9 @@ class Counter {
       case spv::OpFunctionCall:
         throw std::runtime_error("a call is left in the optimised shader: its cost would not be counted");
       default:
-        break;  // declarations, registers and memory
+        if (isFree(i.op)) break;
+        throw std::runtime_error(fmt::format("no cost is known of Op{} of SPIR-V",
+                                             spvOpcodeString(static_cast<std::uint32_t>(i.op))));
     }
   }
 

@@ -41,6 +41,30 @@ TEST(ShaderCost, CountsScalarsOfVectors) {
   EXPECT_EQ(cost("colour = -abs(a);").total(), 0);
 }
 
+TEST(ShaderCost, CountsUnsignedComparisonsAndDerivatives) {
+  // two comparisons and a product; truth becomes 0 or 1 by a select
+  const ShaderCost c =
+      cost("uint u = uint(n); uint w = uint(2 * n); colour = vec4(u > w, u <= w, 0.0, 0.0);");
+  EXPECT_EQ(c.arithmetic, 3);
+  EXPECT_EQ(c.selects, 2);
+  EXPECT_EQ(c.total(), 5);
+  EXPECT_EQ(cost("colour = vec4(dFdx(a.x), dFdy(a.xy), 0.0);").total(), 3);
+  EXPECT_EQ(cost("colour = vec4(fwidth(a.xy), 0.0, 0.0);").total(), 6);
+  EXPECT_EQ(cost("colour = vec4(-n);").total(), 1);  // a conversion
+  const ShaderCost rest = cost("colour = vec4(float(uint(n) % 7u), float(n % 5), mod(a.x, b.x), 0.0);");
+  EXPECT_EQ(rest.special, (Special{{"division", 3}}));
+  EXPECT_EQ(rest.arithmetic, 2);  // conversions
+}
+
+TEST(ShaderCost, NamesWhatItCannotCount) {
+  try {
+    cost("colour = vec4(bitCount(n));");
+    FAIL() << "counted";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "no cost is known of OpBitCount of SPIR-V");
+  }
+}
+
 TEST(ShaderCost, FusesProductsThatAreUsedOnce) {
   EXPECT_EQ(cost("colour = a * b + a;").arithmetic, 4);
   EXPECT_EQ(cost("colour = vec4(a.x * a.y + b.x * b.y);").arithmetic, 2);
