@@ -41,10 +41,12 @@ Vector3d SphericalTriangle::sample(const Eigen::Vector2d& u) const {
   const double hh = h.squaredNorm();
   if (!(hh > 0.0)) return a_;
   const Vector3d p = (2.0 * a_.dot(h) / hh) * h - a_;
-  const double whole = std::min(0.5 * (p - b_).squaredNorm(), 1.999999);  // 1 - b.p
+  const double rest = 0.5 * (p + b_).squaredNorm();  // 1 + b.p
+  if (!(rest > 0.0)) return p;
+  const double whole = std::min(0.5 * (p - b_).squaredNorm(), 2.0);  // 1 - b.p, but for rounding
   const double part = u.y() * whole;
-  const double along = std::sqrt(u.y() * (2.0 - part) / (2.0 - whole));
-  return along * p + (1.0 - part - along * (1.0 - whole)) * b_;
+  const double along = std::sqrt(u.y() * (2.0 - part) / rest);
+  return along * (p + b_) + (1.0 - part - along * rest) * b_;
 }
 
 void SolidAngleSampler::add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {

@@ -163,6 +163,19 @@ TEST(SphericalTriangle, TinyOnesKeepTheirAccuracyAndTheirSamples) {
   }
 }
 
+TEST(SphericalTriangle, EdgesOfHalfACircleKeepUnitSamples) {
+  // an edge that passes the point closely is seen under nearly pi
+  for (const double gap : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const SphericalTriangle triangle({-1, 0.1, 1}, {-1, gap, 0}, {1, gap, 0});
+    Random random(5);
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3d w = triangle.sample({i % 4 == 0 ? 1.0 : random.uniform(), random.uniform()});
+      // rounding over the sine of the arc from b
+      EXPECT_NEAR(w.norm(), 1.0, 1e-15 / gap) << gap;
+    }
+  }
+}
+
 TEST(SphericalTriangle, CornersOfTheSquareStayInIt) {
   Random random(9);
   for (int i = 0; i < 3000; ++i) {
