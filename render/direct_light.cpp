@@ -13,11 +13,15 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Samples that are evaluated together.
+// Both constants below are chosen for the CPU time of renderReference on one thread, over namedScenes(true)
+// and 24 of randomScene at small sizes, by building with other values.
+
+// Samples that are evaluated together: 16 to 256 take the same time to 2 %, 8 take 4 % more.
 constexpr std::uint32_t kBatch = 64;
 // Up to this many times as dense as even sampling of the light the lobe leaves a smooth integrand, which
 // quasi-random points of the light integrate faster than those of the lobe, that fall on either side of the
-// light's outline. Chosen by the samples that the scenes of the tests need.
+// light's outline; the faster, the smaller the error aimed at. 1, 4, 16, 64 take 1.5, 1.5, 1.7, 1.8 s to an
+// error of 3e-4 and 25, 16, 12, 11 s to 3e-5, which 0, 0, 4, 6 of the 41 scenes then do not reach.
 constexpr double kNarrow = 16.0;
 
 struct Batch {
