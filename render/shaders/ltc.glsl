@@ -1,5 +1,6 @@
 // Shading with LTC tables: GLSL 3.30 and later, ES 3.00 and later. Include it after your #version line; what
-// is not called costs nothing. ltc.hlsl is the same for HLSL.
+// is not called costs nothing, nor does including it again. Under ES it sets the default precision of floats
+// and samplers to highp, also for what follows it. ltc.hlsl is the same for HLSL.
 //
 // Isotropic table, two textures, from the header that `ltcfit export T.json --format h` writes (or any table
 // of that layout); x = roughness, the square root of GGX's alpha, y = sqrt(1 - N.V):
@@ -10,6 +11,9 @@
 //   texel (phi, theta, (row * nAlpha + alpha) * nLambda + lambda) = (M[row][0], M[row][1], M[row][2], e),
 //   e = norm in row 0, fresnel in row 1, 0 in row 2; det M > 0
 // All with linear filtering, clamped to the edge, without mipmaps.
+
+#ifndef LTC_GLSL
+#define LTC_GLSL
 
 #ifdef GL_ES
 precision highp float;
@@ -200,10 +204,11 @@ float ltcEnd(LtcOutline outline) {
 }
 
 // Integral of the lobe over a quadrilateral light, exactly clipped at the horizon; vertices in the shading
-// frame, relative to the shaded point. Positive where they run counterclockwise seen from above: max(0, .)
-// for a light that emits from one side, abs() for both. Multiply by ltcFresnel and by the light's radiance.
-// With inverse = mat3(1) it is the diffuse form factor. Never NaN for finite vertices; an edge through the
-// shaded point itself has no plane, and what it adds (at most 1/2) has no meaning.
+// frame, relative to the shaded point. Positive where they run counterclockwise seen from above, that is
+// clockwise as the shaded point sees them: max(0, .) for a light that emits from one side, abs() for both.
+// Multiply by ltcFresnel and by the light's radiance. With inverse = mat3(1) it is the diffuse form factor.
+// Never NaN for finite vertices; an edge through the shaded point itself has no plane, and what it adds (at
+// most 1/2) has no meaning.
 float ltcQuad(mat3 inverse, vec3 v0, vec3 v1, vec3 v2, vec3 v3) {
   vec3 a = ltcTransform(inverse, v0);
   vec3 b = ltcTransform(inverse, v1);
@@ -242,10 +247,14 @@ float ltcPolygon(mat3 inverse, vec3 v[LTC_MAX_VERTICES], int count) {
 bool ltcFacing(vec3 v0, vec3 v1, vec3 v2) { return dot(v0, cross(v1 - v0, v2 - v0)) > 0.0; }
 
 // Whether any part of a light is above the surface. A light below adds nothing in truth, but gets a little
-// from the lobe, some of whose mass lies below the surface. Skipping it changes the value, for the better.
+// from the lobe, some of whose mass lies below the surface. Skipping it changes the value, for the better;
+// but where a large light sets, its last light goes in one step: of 0.036 of its radiance at most for views
+// at 85 degrees, 0.08 at 89, 0.21 at 90 (F = 1; roughness 0.2: 0.03 at 85, 0.07 at 89).
 bool ltcAboveSurface(vec3 v0, vec3 v1, vec3 v2, vec3 v3) {
   return max(max(v0.z, v1.z), max(v2.z, v3.z)) > 0.0;
 }
 
 // Reflectance by Schlick's Fresnel; f90 = vec3(1) where not known better.
 vec3 ltcFresnel(LtcEntry entry, vec3 f0, vec3 f90) { return f0 * entry.norm + (f90 - f0) * entry.fresnel; }
+
+#endif  // LTC_GLSL

@@ -1,5 +1,6 @@
-// Shading with LTC tables: HLSL, shader model 4 and later. What is not called costs nothing. ltc.glsl is the
-// same for GLSL, function for function; why they are written so is said there.
+// Shading with LTC tables: HLSL, shader model 4 and later. What is not called costs nothing, nor does
+// including it again. ltc.glsl is the same for GLSL, function for function; why they are written so is said
+// there.
 //
 // Vectors are columns: mul(M, v). Matrices are built of rows, float3x3(row0, row1, row2); how a compiler
 // packs those of constant buffers plays no part.
@@ -14,6 +15,9 @@
 //   texel (phi, theta, (row * nAlpha + alpha) * nLambda + lambda) = (M[row][0], M[row][1], M[row][2], e),
 //   e = norm in row 0, fresnel in row 1, 0 in row 2; det M > 0
 // `bilinear`: MIN_MAG_MIP_LINEAR with CLAMP in all directions. No mipmaps.
+
+#ifndef LTC_HLSL
+#define LTC_HLSL
 
 struct LtcEntry {
   float3x3 inverse;  // takes directions of the shading frame to the clamped cosine; its scale has no meaning
@@ -180,8 +184,9 @@ float ltcEnd(LtcOutline outline) {
 }
 
 // Integral of the lobe over a quadrilateral light, exactly clipped at the horizon; vertices in the shading
-// frame, relative to the shaded point. Positive where they run counterclockwise seen from above: max(0, .)
-// for a light that emits from one side, abs() for both. With the unit matrix it is the diffuse form factor.
+// frame, relative to the shaded point. Positive where they run counterclockwise seen from above, that is
+// clockwise as the shaded point sees them: max(0, .) for a light that emits from one side, abs() for both.
+// With the unit matrix it is the diffuse form factor.
 float ltcQuad(float3x3 inverse, float3 v0, float3 v1, float3 v2, float3 v3) {
   float3 a = ltcTransform(inverse, v0);
   float3 b = ltcTransform(inverse, v1);
@@ -215,7 +220,8 @@ float ltcPolygon(float3x3 inverse, float3 v[LTC_MAX_VERTICES], int count) {
 
 // Tests before anything is fetched, with vertices as above: whether the shaded point lies on the side that a
 // one-sided light emits to (v1 a corner where the outline is convex), and whether any part of a light is
-// above the surface (what the lobe gives it otherwise is better left out).
+// above the surface (what the lobe gives it otherwise is better left out, in a step of 0.08 of its
+// radiance where a large light sets and the view is at 89 degrees).
 bool ltcFacing(float3 v0, float3 v1, float3 v2) { return dot(v0, cross(v1 - v0, v2 - v0)) > 0.0; }
 bool ltcAboveSurface(float3 v0, float3 v1, float3 v2, float3 v3) {
   return max(max(v0.z, v1.z), max(v2.z, v3.z)) > 0.0;
@@ -225,3 +231,5 @@ bool ltcAboveSurface(float3 v0, float3 v1, float3 v2, float3 v3) {
 float3 ltcFresnel(LtcEntry entry, float3 f0, float3 f90) {
   return f0 * entry.norm + (f90 - f0) * entry.fresnel;
 }
+
+#endif  // LTC_HLSL

@@ -3,10 +3,13 @@
 // this is there to be compared with: for lights through the horizon a sphere is off by up to 0.14 of full
 // irradiance.
 //
-// The vector form factor points to the light where the vertices run counterclockwise seen from the shaded
-// point (ltcFacing). Seen from behind it points away, and what the sphere makes of it means nothing: there a
+// The vector form factor points to the light where the vertices run clockwise as the shaded point sees them
+// (ltcFacing). Seen from behind it points away, and what the sphere makes of it means nothing: there a
 // light that emits from one side counts 0, and one that emits from both takes -F. In that the sphere differs
 // from ltcQuad, whose sign tells.
+
+#ifndef LTC_PROXY_GLSL
+#define LTC_PROXY_GLSL
 
 // The edge's angle times its unit normal, halved as in ltcEdge.
 vec3 ltcEdgeVector(vec3 a, vec3 b) {
@@ -41,3 +44,5 @@ float ltcProxySphereTable(sampler2D sphereTable, vec3 f) {
   vec2 uv = vec2(f.z / max(l, 1e-30) * 0.5 + 0.5, l);
   return textureLod(sphereTable, uv * ((size - 1.0) / size) + 0.5 / size, 0.0).w * l;
 }
+
+#endif  // LTC_PROXY_GLSL

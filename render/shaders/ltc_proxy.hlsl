@@ -2,6 +2,9 @@
 // function; what it is good for, and how lights seen from behind are treated, is said there. Include it after
 // ltc.hlsl.
 
+#ifndef LTC_PROXY_HLSL
+#define LTC_PROXY_HLSL
+
 float3 ltcEdgeVector(float3 a, float3 b) {
   float3 m = a + b;
   float m2 = dot(m, m);
@@ -34,3 +37,5 @@ float ltcProxySphereTable(Texture2D sphereTable, SamplerState bilinear, float3 f
   uv = uv * ((size - 1.0) / size) + 0.5 / size;
   return sphereTable.SampleLevel(bilinear, uv, 0.0).w * l;
 }
+
+#endif  // LTC_PROXY_HLSL

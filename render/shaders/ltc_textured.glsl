@@ -7,6 +7,9 @@
 //   vec3 colour = ltcLightColour(entry.inverse, v0, v1, v2, v3, picture, margin, lodScale);
 //   light = max(0.0, ltcQuad(entry.inverse, v0, v1, v2, v3)) * ltcFresnel(..) * colour;
 
+#ifndef LTC_TEXTURED_GLSL
+#define LTC_TEXTURED_GLSL
+
 // The mean colour of the light under the lobe (Heitz et al. 2016, section 5.4). `inverse` and the vertices as
 // for ltcQuad; texture coordinates (0, 0), (1, 0), (1, 1), (0, 1) at v0 to v3, v = 0 is the picture's top row.
 // A parallelogram; of another plane quadrilateral the parallelogram nearest to it. For inverse = mat3(1) the
@@ -39,3 +42,5 @@ vec3 ltcLightColour(mat3 inverse, vec3 v0, vec3 v1, vec3 v2, vec3 v3, sampler2D 
   float lod = 0.5 * log2(variance) + log2(lodScale);
   return textureLod(picture, (uv + margin) / (1.0 + 2.0 * margin), lod).rgb;
 }
+
+#endif  // LTC_TEXTURED_GLSL

@@ -8,6 +8,9 @@
 //   float3 colour = ltcLightColour(entry.inverse, v0, v1, v2, v3, picture, trilinear, margin, lodScale);
 //   light = max(0.0, ltcQuad(entry.inverse, v0, v1, v2, v3)) * ltcFresnel(..) * colour;
 
+#ifndef LTC_TEXTURED_HLSL
+#define LTC_TEXTURED_HLSL
+
 // The mean colour of the light under the lobe; texture coordinates (0, 0), (1, 0), (1, 1), (0, 1) at v0 to
 // v3, v = 0 is the picture's top row. Never NaN for finite vertices.
 float3 ltcLightColour(float3x3 inverse, float3 v0, float3 v1, float3 v2, float3 v3, Texture2D picture,
@@ -35,3 +38,5 @@ float3 ltcLightColour(float3x3 inverse, float3 v0, float3 v1, float3 v2, float3 
   float lod = 0.5 * log2(variance) + log2(lodScale);
   return picture.SampleLevel(trilinear, (uv + margin) / (1.0 + 2.0 * margin), lod).rgb;
 }
+
+#endif  // LTC_TEXTURED_HLSL

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -160,6 +161,51 @@ TEST_P(ShaderProxy, FacingIsTheSignOfTheIntegral) {
   }
   EXPECT_GT(positive, 3000);
   EXPECT_GT(negative, 3000);
+}
+
+// Overhead and in front, once clockwise as the shaded point sees them, once the other way.
+TEST_P(ShaderProxy, LightsTowardsThePointRunClockwise) {
+  const Quad overhead{Vec3{1.0f, 1.0f, 1.0f}, Vec3{-1.0f, 1.0f, 1.0f}, Vec3{-1.0f, -1.0f, 1.0f},
+                      Vec3{1.0f, -1.0f, 1.0f}};
+  // looking along x, z is up and y to the left: from top left to top right, and down
+  const Quad inFront{Vec3{2.0f, 1.0f, 2.0f}, Vec3{2.0f, -1.0f, 2.0f}, Vec3{2.0f, -1.0f, 1.0f},
+                     Vec3{2.0f, 1.0f, 1.0f}};
+  for (const Quad& clockwise : {overhead, inFront}) {
+    const Vector3d centre = 0.25 * (toEigen(clockwise[0]) + toEigen(clockwise[1]) + toEigen(clockwise[2]) +
+                                    toEigen(clockwise[3]));
+    for (const bool turned : {false, true}) {
+      const Quad q = turned ? backwards(clockwise) : clockwise;
+      EXPECT_NE(shader().facing(q[0], q[1], q[2]), turned);
+      EXPECT_NE(shader().quad(kIdentity, q) > 0.0f, turned);
+      EXPECT_NE(toEigen(shader().formFactor(kIdentity, q)).dot(centre) > 0.0, turned);
+    }
+  }
+}
+
+// What ltcAboveSurface says of the step: a wall that sets behind the horizon, opposite of the view.
+TEST_P(ShaderProxy, SkippingLeavesAStep) {
+  const IsotropicTextures textures = isotropicTextures(isotropicTable());
+  const Quad wall{Vec3{-1.0f, -1e3f, 0.0f}, Vec3{-1.0f, 1e3f, 0.0f}, Vec3{-1.0f, 1e3f, -1e3f},
+                  Vec3{-1.0f, -1e3f, -1e3f}};
+  ASSERT_TRUE(shader().facing(wall[0], wall[1], wall[2]));
+  ASSERT_FALSE(shader().aboveSurface(wall));
+  const auto step = [&](double degrees, double roughness) {
+    const auto nDotV = static_cast<float>(std::cos(degrees * 3.14159265358979 / 180.0));
+    const ShaderEntry entry =
+        shader().fetch(textures.matrix, textures.amplitude, static_cast<float>(roughness), nDotV);
+    return static_cast<double>(entry.norm * shader().quad(entry.inverse, wall));
+  };
+  const auto largest = [&](double degrees) {
+    double most = 0.0;
+    for (int i = 0; i <= 100; ++i) most = std::max(most, step(degrees, i / 100.0));
+    return most;
+  };
+  // the comment rounds to 0.01, and another table may differ a little
+  EXPECT_NEAR(largest(90.0), 0.21, 0.005);
+  EXPECT_NEAR(largest(89.0), 0.08, 0.005);
+  EXPECT_NEAR(largest(85.0), 0.036, 0.005);
+  EXPECT_NEAR(step(89.0, 0.2), 0.07, 0.005);
+  EXPECT_NEAR(step(85.0, 0.2), 0.03, 0.005);
 }
 
 TEST_P(ShaderProxy, AboveSurfaceIsWhatTheCosineSees) {

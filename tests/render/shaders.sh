@@ -95,18 +95,26 @@ hlsl_textured='LtcEntry lobe = ltcFetch(matrixTable, amplitudeTable, bilinear, 0
                                mul(around, corners[3].xyz - s.position), picture, bilinear, 0.5, 512.0);
 '
 
-# glsl VERSION BODY, hlsl BODY: whether a fragment shader with that body compiles; what is said goes to log
+# glsl VERSION BODY, hlsl BODY: whether a fragment shader with that body compiles; what is said goes to log.
+# The files are included once, or `times`.
+times=1
+include() {
+  local i file
+  for ((i = 0; i < times; ++i)); do
+    for file in ltc ltc_proxy ltc_textured; do cat "$shaders/$file.$1" || exit 1; done
+  done
+}
 glsl() {
   {
     echo "#version $1"
-    cat "$shaders/ltc.glsl" "$shaders/ltc_proxy.glsl" "$shaders/ltc_textured.glsl"
+    include glsl
     echo "$glsl_head void main() { colour = vec4(0.0); $2 }"
   } > "$work/test.frag"
   "$validator" "$work/test.frag" > "$work/log" 2>&1
 }
 hlsl() {
   {
-    cat "$shaders/ltc.hlsl" "$shaders/ltc_proxy.hlsl" "$shaders/ltc_textured.hlsl"
+    include hlsl
     echo "$hlsl_head float4 main(Surface s) : SV_Target { float4 colour = (float4)0.0; $1 return colour; }"
   } > "$work/test.hlsl"
   "$validator" -D -V -S frag -e main -o "$work/test.spv" "$work/test.hlsl" > "$work/log" 2>&1 || return 1
@@ -133,4 +141,8 @@ for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_proxy" "$hlsl_textured"
 done
 hlsl "LtcEntry e = ltcFetch(matrixTable, 0.4, 1.0);" && fail "HLSL: a wrong call compiles"
 hlsl "colour = ltcFrame(s.normal, s.view);" && fail "HLSL: a wrong type compiles"
+times=2
+glsl "330 core" "$glsl_isotropic $glsl_proxy $glsl_textured" || fail "GLSL 330 core, included twice, does not compile"
+glsl "300 es" "$glsl_isotropic $glsl_proxy $glsl_textured" || fail "GLSL 300 es, included twice, does not compile"
+hlsl "$hlsl_isotropic $hlsl_proxy $hlsl_textured" || fail "HLSL, included twice, does not compile"
 echo "all compiled"
