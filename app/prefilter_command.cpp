@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "app/commands.h"
@@ -17,10 +18,14 @@
 namespace ltcfit::app {
 namespace {
 
+constexpr double kMinAspect = 1.0 / 64.0;
+constexpr double kMaxAspect = 64.0;
+
 struct PrefilterArguments {
   std::string input;
   std::string output;
   PrefilterOptions options;
+  std::optional<double> aspect;
   bool floats = false;
   bool half = false;
   bool uncompressed = false;
@@ -41,16 +46,30 @@ void print(const PrefilterArguments& a, const LinearPicture& picture, const Pref
                                 {"lod_scale", texture.lodScale}};
     for (std::size_t i = 0; i < files.size(); ++i)
       json["files"].push_back({{"path", paths[i]}, {"bytes", files[i].bytes.size()}});
-    fmt::print("{}\n", json.dump(1));
+    fmt::print("{}\n", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
   }
   if (a.quiet) return;
   std::FILE* const notes = isStream(a.output) ? stderr : stdout;
   fmt::print(notes, "{} x {} pixels -> {} x {} texels, {} levels, {}\n", picture.width, picture.height, size,
              size, texture.levels.size(), a.floats ? "float" : "half");
-  fmt::print(notes, "for ltcLightColour: margin = {}, lodScale = {:.9g}\n", texture.margin, texture.lodScale);
+  fmt::print(notes,
+             "for ltcLightColour: margin = {}, lodScale = {:.9g}; made for a light of aspect = {:.6g}\n",
+             texture.margin, texture.lodScale, texture.aspect);
   for (std::size_t i = 0; i < files.size(); ++i)
     fmt::print(notes, "wrote {} ({} bytes)\n", paths[i], files[i].bytes.size());
+}
+
+// Of the light: as told, or the picture's, since most lights show theirs undistorted.
+double aspectOf(const PrefilterArguments& a, const LinearPicture& picture) {
+  if (a.aspect.has_value()) return *a.aspect;
+  const double aspect = static_cast<double>(picture.width) / static_cast<double>(picture.height);
+  if (aspect < kMinAspect || aspect > kMaxAspect) {
+    throw InputError(
+        fmt::format("{}: {} x {} pixels have no aspect of 1/64 to 64; give the light's by --aspect", a.input,
+                    picture.width, picture.height));
+  }
+  return aspect;
 }
 
 int runPrefilter(const PrefilterArguments& a) {
@@ -62,11 +81,13 @@ int runPrefilter(const PrefilterArguments& a) {
   checkWritable(a.output);
   if (isSameFile(a.input, a.output)) throw InputError(a.input + ": --output would overwrite this picture");
   LinearPicture picture = readPicture(a.input);
+  PrefilterOptions options = a.options;
+  options.aspect = aspectOf(a, picture);
   const LightTexture light{a.input, picture.width, picture.height, std::move(picture.texels)};
   PrefilteredTexture texture;
   std::vector<ExportFile> files;
   try {
-    texture = prefilter(light, a.options);
+    texture = prefilter(light, options);
     files = lightTextureFiles(toLightTextureFile(texture, a.floats ? Precision::kFloat : Precision::kHalf),
                               output.filename().string(),
                               a.uncompressed ? Ktx2Compression::kNone : Ktx2Compression::kZstd);
@@ -111,18 +132,19 @@ void addPrefilterCommand(CLI::App& app, CommandStatus& status) {
       ->check(CLI::Range(0.0, 4.0))
       ->capture_default_str();
   command
-      ->add_option("--aspect", a->options.aspect,
-                   "Width / height of the light that will show it: the filter is round there; 1/64..64")
-      ->check(CLI::Range(1.0 / 64.0, 64.0))
-      ->capture_default_str();
+      ->add_option("--aspect", a->aspect,
+                   "Width / height of the light that will show it: the filter is round there; 1/64..64 "
+                   "[the picture's: shown undistorted]")
+      ->check(CLI::Range(kMinAspect, kMaxAspect));
   command
       ->add_option("--size", a->options.size,
                    "Texels along a side, a power of two, 4..4096; 0 = the picture's resolution")
+      ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command->add_option("--threads", a->options.threads, "Threads; 0 = all cores. Does not change the result")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors");
+  command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors, and what --json asks for");
   command->add_flag("--json", a->json, "Print JSON");
   command->callback([a, &status] { status.exitCode = runPrefilter(*a); });
 }

@@ -37,6 +37,7 @@ std::string metadataOf(const LightTextureFile& texture, const std::string& sum) 
   json["precision"] = texture.levels[0].precision == Precision::kHalf ? "float16" : "float32";
   json["values"] = "linear RGB, alpha 1; row 0 is the picture's top";
   json["coordinates"] = "(uv + margin) / (1 + 2 margin), uv = (0, 0), (1, 0), (1, 1), (0, 1) at the vertices";
+  json["shape"] = "the filter is round on a light of width / height = aspect";
   json["level"] = "log2(lod_scale sigma), sigma = sqrt(r^2 / (2 A)): ltcLightColour of ltc_textured.glsl";
   if (!sum.empty()) json["checksum"] = sum;
   return json.dump(1) + "\n";

@@ -22,7 +22,7 @@ LightTextureFile toLightTextureFile(const PrefilteredTexture& texture, Precision
         if (precision == Precision::kHalf) value = halfValue(halfBits(value));
         if (!std::isfinite(value)) {
           throw std::invalid_argument(
-              fmt::format("a radiance of {} is too large for {}", channel,
+              fmt::format("a radiance of {:.6g} is too large for {}", channel,
                           precision == Precision::kHalf ? "half precision; take --float" : "float32"));
         }
         image.values.push_back(value);

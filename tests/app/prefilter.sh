@@ -6,10 +6,14 @@ python3 - <<'PY'
 import struct, zlib
 def chunk(kind, data):
     return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
-rows = b''.join(b'\0' + b''.join(bytes((32 * x, 64 * y, 200)) for x in range(8)) for y in range(4))
-png = (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', 8, 4, 8, 2, 0, 0, 0))
-       + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))
+def png_of(width, height):
+    rows = b''.join(b'\0' + b''.join(bytes((32 * x % 256, 64 * y, 200)) for x in range(width))
+                    for y in range(height))
+    return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, 2, 0, 0, 0))
+            + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))
+png = png_of(8, 4)
 open('picture.png', 'wb').write(png)
+open('thin.png', 'wb').write(png_of(65, 1))
 open('cut.png', 'wb').write(png[:-30])
 open('text.png', 'w').write('hello')
 PY
@@ -22,7 +26,8 @@ done
 [ -s a.dds.json ] || fail "no metadata beside a.dds"
 grep -q '"margin": 0.5' a.dds.json || fail "a.dds.json: no margin"
 for f in a.ktx2 a.exr; do grep -aq ltc-light-texture $f || fail "$f: no metadata"; done
-"$ltcfit" prefilter picture.png -o b.ktx2 | grep -q "margin = 0.5, lodScale = " || fail "the parameters are not printed"
+"$ltcfit" prefilter picture.png -o b.ktx2 | grep -q "margin = 0.5, lodScale = .*; made for a light of aspect = 2$" ||
+  fail "the parameters are not printed"
 cmp -s a.ktx2 b.ktx2 || fail "a second run writes other bytes"
 for threads in 1 3; do
   "$ltcfit" prefilter picture.png -q --size 128 --threads $threads -o t$threads.dds || fail "threads $threads"
@@ -34,12 +39,22 @@ cmp -s t1.dds t3.dds || fail "the bytes depend on the threads"
 [ "$(wc -c <f.dds)" -eq $((148 + 341 * 16)) ] || fail "f.dds: $(wc -c <f.dds) bytes"
 "$ltcfit" prefilter picture.png -q --uncompressed -o u.ktx2 || fail "--uncompressed"
 cmp -s u.ktx2 a.ktx2 && fail "--uncompressed changes nothing"
-"$ltcfit" prefilter picture.png -q --aspect 2 -o c.ktx2 && cmp -s c.ktx2 a.ktx2 && fail "--aspect changes nothing"
-"$ltcfit" prefilter picture.png --json --margin 0.25 -o j.exr | python3 -c "
+# the picture's own aspect, where none is given
+"$ltcfit" prefilter picture.png -q --aspect 2 -o c.ktx2 && cmp -s c.ktx2 a.ktx2 || fail "--aspect 2 is not the default"
+"$ltcfit" prefilter picture.png -q --aspect 1 -o c.ktx2 && cmp -s c.ktx2 a.ktx2 && fail "--aspect changes nothing"
+grep -q '"aspect": 2.0' a.dds.json || fail "a.dds.json: no aspect"
+grep -q 'round on a light of width / height = aspect' a.dds.json || fail "a.dds.json: aspect is not explained"
+"$ltcfit" prefilter thin.png -q --aspect 64 -o thin.dds || fail "a thin picture with an aspect given"
+"$ltcfit" prefilter picture.png -q --json --margin 0.25 -o j.exr | python3 -c "
 import json, sys
 j = json.load(sys.stdin)
-assert j['margin'] == 0.25 and j['size'] == 16 and j['levels'] == 5 and j['files'][0]['path'] == 'j.exr', j" ||
+assert j['margin'] == 0.25 and j['aspect'] == 2 and j['size'] == 16 and j['levels'] == 5 and j['files'][0]['path'] == 'j.exr', j" ||
   fail "--json"
+
+# a name that is no UTF-8 is printed all the same
+"$ltcfit" prefilter picture.png --json -o $'n\xff.dds' | python3 -c "
+import json, sys
+assert json.load(sys.stdin)['files'][0]['path'] == 'n\ufffd.dds'" || fail "--json of a name that is no UTF-8"
 
 touch after  # in the list too
 ls > before
@@ -62,6 +77,8 @@ expect "no/such" picture.png -o no/such/x.exr
 expect "is for .ktx2" picture.png -o x.dds --uncompressed
 expect "--margin" picture.png -o x.dds --margin 5
 expect "--aspect" picture.png -o x.dds --aspect 0
+expect "thin.png: 65 x 1 pixels .* --aspect" thin.png -o x.dds
+expect "--size: Value -1 not in range" picture.png -o x.dds --size -1
 expect "size 48: need a power of two" picture.png -o x.dds --size 48
 expect "--float" picture.png -o x.dds --half --float
 expect "EXR" a.exr -o a2.exr # mip maps are no picture
