@@ -234,6 +234,9 @@ class FewUniforms {
  public:
   explicit FewUniforms(GLint components) {
     components_ = components;
+    // epoxy sets its pointer at the first call
+    GLint unused = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &unused);
     original_ = epoxy_glGetIntegerv;
     epoxy_glGetIntegerv = [](GLenum name, GLint* out) {
       original_(name, out);
