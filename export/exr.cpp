@@ -52,9 +52,16 @@ bool isExr(std::string_view bytes) {
   return bytes.starts_with(kExrMagic);
 }
 
-ExrFile parseExr(std::string_view bytes, const std::string& name) {
+namespace {
+
+bool isShown(const OPENEXR_IMF_NAMESPACE::ChannelList& all, std::string_view channel) {
+  const bool colour = all.findChannel("R") != nullptr;
+  return colour ? channel == "R" || channel == "G" || channel == "B" : channel == "Y";
+}
+
+ExrFile parse(std::string_view bytes, const std::string& name, ExrKind kind) {
   namespace imf = OPENEXR_IMF_NAMESPACE;
-  checkExrHeader(bytes, name, ExrKind::kScanLines);
+  checkExrHeader(bytes, name, kind);
   ExrFile file;
   try {
     ExrInput stream(bytes);
@@ -65,6 +72,7 @@ ExrFile parseExr(std::string_view bytes, const std::string& name) {
     file.height = static_cast<std::size_t>(std::int64_t{window.max.y} - window.min.y + 1);
     bool half = true;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+      if (kind == ExrKind::kPicture && !isShown(header.channels(), c.name())) continue;
       half = half && c.channel().type == imf::HALF;
       file.names.emplace_back(c.name());
     }
@@ -92,6 +100,16 @@ ExrFile parseExr(std::string_view bytes, const std::string& name) {
     refuseExr(name, fmt::format("damaged ({})", error.what()));
   }
   return file;
+}
+
+}  // namespace
+
+ExrFile parseExr(std::string_view bytes, const std::string& name) {
+  return parse(bytes, name, ExrKind::kTable);
+}
+
+ExrFile parseExrPicture(std::string_view bytes, const std::string& name) {
+  return parse(bytes, name, ExrKind::kPicture);
 }
 
 }  // namespace ltcfit

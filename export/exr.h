@@ -30,6 +30,12 @@ bool isExr(std::string_view bytes);
 /// and sizes that the file's length cannot hold, before anything of that size is allocated.
 ExrFile parseExr(std::string_view bytes, const std::string& name);
 
+/// Reads channels R, G and B or, of a file without them, grey Y of a picture: as parseExr, but of any
+/// compression, and with other channels, which are passed over. InputError with `name`, and how to convert
+/// the file, for channels that are no such picture (luminance and chroma, CIE X, Y, Z) and a data window that
+/// is not the display window.
+ExrFile parseExrPicture(std::string_view bytes, const std::string& name);
+
 /// A chain of mip maps of RGBA, down to one texel, and the file's attributes of type string.
 struct ExrMips {
   std::vector<Image> levels;  ///< from the finest on

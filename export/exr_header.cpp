@@ -4,19 +4,35 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "export/atomic_file.h"
 #include "export/little_endian.h"
+#include "export/picture.h"
 
 namespace ltcfit {
 namespace {
 
-// The lossless compressions, in the order of their codes. A table is not for the lossy ones.
+// In the order of their codes: none, RLE, ZIPS, ZIP, PIZ; and the lossy ones, which a table is not for:
+// PXR24, B44, B44A, DWAA, DWAB.
 struct Compression {
   std::int64_t lines;  // of a block
-  std::int64_t ratio;  // data to file at most: 1032 is deflate's limit, PIZ' is lower
+  // Data to file at most: 1032 is deflate's limit, PIZ' is lower. PXR24 deflates 3 bytes of a float's 4; B44A
+  // stores 16 halves in 3 bytes; DWA deflates the 4 bytes that 64 floats need at least.
+  std::int64_t ratio;
 };
-constexpr std::array<Compression, 5> kCompressions{{{1, 1}, {1, 1032}, {1, 1032}, {16, 1032}, {32, 1032}}};
+constexpr std::array<Compression, 10> kCompressions{{{1, 1},
+                                                     {1, 1032},
+                                                     {1, 1032},
+                                                     {16, 1032},
+                                                     {32, 1032},
+                                                     {16, 1376},
+                                                     {32, 11},
+                                                     {32, 11},
+                                                     {32, 66048},
+                                                     {256, 66048}}};
+constexpr std::size_t kLossless = 5;
+constexpr std::size_t kNamedChannels = 16;  // in a message
 
 // Attribute types and their lengths. OpenEXR reads that many bytes whatever length the file tells, and goes
 // on with what follows them as the next attribute.
@@ -37,7 +53,7 @@ constexpr std::array<AttributeSize, 13> kAttributeSizes{{{1, " compression deepI
                                                          {64, " m44f "},
                                                          {72, " m33d "},
                                                          {128, " m44d "}}};
-// Types of which no table has any: they hold lengths of their own, or belong to other kinds of files.
+// Types that are not read: they hold lengths of their own, or belong to other kinds of files.
 constexpr std::array<std::string_view, 2> kRefusedTypes{"idmanifest", "stringvector"};
 
 // The parts of a header that decide how much OpenEXR allocates, read before it sees the file: of its own it
@@ -45,16 +61,14 @@ constexpr std::array<std::string_view, 2> kRefusedTypes{"idmanifest", "stringvec
 class HeaderCheck {
  public:
   HeaderCheck(std::string_view bytes, std::string name, ExrKind kind)
-      : bytes_(bytes), name_(std::move(name)), tiled_(kind == ExrKind::kMips) {}
+      : bytes_(bytes), name_(std::move(name)), tiled_(kind == ExrKind::kMips), kind_(kind) {}
 
   void run() {
     if (bytes_.size() < 8) cutOff();
     const auto version = readAt<std::uint32_t>(bytes_, 4);
-    if ((version & ~kLongNames) != (tiled_ ? 2 | kTiled : 2)) {
-      refuseExr(name_, tiled_ ? "not tiled, deep, multi-part or of another version; need mip maps"
-                              : "tiled, deep, multi-part or of another version; need scan lines");
-    }
+    checkVersion(version & ~kLongNames);
     std::string_view window;
+    std::string_view display;
     std::string_view compression;
     std::string_view channels;
     std::string_view tiles;
@@ -65,6 +79,7 @@ class HeaderCheck {
       const auto length = readAt<std::uint32_t>(take(4), 0);
       const std::string_view value = take(length);
       if (key == "dataWindow") keep(window, value);
+      if (key == "displayWindow") keep(display, value);
       if (key == "compression") keep(compression, value);
       if (key == "channels") keep(channels, value);
       if (key == "tiles") keep(tiles, value);
@@ -79,12 +94,47 @@ class HeaderCheck {
     if (window.size() != 16 || compression.size() != 1 || channels.empty())
       refuseExr(name_, "no data window, compression or channels");
     if (tiled_ != !tiles.empty()) refuseExr(name_, "tiles where none are to be, or none");
-    checkSize(window, static_cast<unsigned char>(compression[0]), bytesOfPixel(channels), tiles);
+    const std::vector<Channel> list = channelsOf(channels);
+    if (kind_ == ExrKind::kPicture) {
+      checkPictureChannels(list);
+      if (display != window) {
+        refuseExr(name_,
+                  "the data window is not the display window, which a picture is; crop or extend it, e.g. by "
+                  "`oiiotool in.exr --croptofull -o out.exr`");
+      }
+    }
+    checkSize(window, static_cast<unsigned char>(compression[0]), bytesOfPixel(list), tiles);
   }
 
  private:
   static constexpr std::uint32_t kTiled = 0x200;
   static constexpr std::uint32_t kLongNames = 0x400;
+  static constexpr std::uint32_t kMultiPart = 0x1000;
+
+  struct Channel {
+    std::string_view name;
+    std::uint32_t type;  // 0 integers, 1 halves, 2 floats
+    bool everyPixel;     // not subsampled
+  };
+
+  const char* thing() const {
+    return kind_ == ExrKind::kPicture ? "picture" : kind_ == ExrKind::kTable ? "table" : "texture";
+  }
+  void checkVersion(std::uint32_t version) const {
+    if (version == (tiled_ ? 2 | kTiled : 2)) return;
+    if (tiled_) refuseExr(name_, "not tiled, deep, multi-part or of another version; need mip maps");
+    if (kind_ == ExrKind::kPicture && version == (2 | kTiled)) {
+      refuseExr(
+          name_,
+          "a tiled picture; need scan lines: convert it, e.g. by `oiiotool in.exr --scanline -o out.exr`");
+    }
+    if (kind_ == ExrKind::kPicture && version == (2 | kMultiPart)) {
+      refuseExr(name_,
+                "several parts; need one of scan lines: convert it, e.g. by `oiiotool in.exr --subimage 0 "
+                "--scanline -o out.exr`");
+    }
+    refuseExr(name_, "tiled, deep, multi-part or of another version; need scan lines");
+  }
 
   void keep(std::string_view& kept, std::string_view value) const {
     if (kept.data() != nullptr) refuseExr(name_, "an attribute twice");
@@ -111,26 +161,56 @@ class HeaderCheck {
     }
     if (!fits) refuseExr(name_, fmt::format("attribute '{}': {} bytes are no {}", key, length, type));
     if (std::find(kRefusedTypes.begin(), kRefusedTypes.end(), type) != kRefusedTypes.end())
-      refuseExr(name_, fmt::format("attribute '{}' of type '{}', which no table has", key, type));
+      refuseExr(name_, fmt::format("attribute '{}' of type '{}', which no {} has", key, type, thing()));
   }
-  // Of all channels.
-  std::int64_t bytesOfPixel(std::string_view list) const {
-    std::int64_t size = 0;
+  std::vector<Channel> channelsOf(std::string_view list) const {
+    std::vector<Channel> out;
     std::size_t at = 0;
     while (at < list.size() && list[at] != '\0') {
       // name, type, 4 bytes, sampling of x and y
       const std::size_t end = list.find('\0', at);
       if (end == std::string_view::npos || list.size() - end < 17) cutOff();
-      const auto type = readAt<std::uint32_t>(list, end + 1);
-      if ((type != 1 && type != 2) || readAt<std::uint32_t>(list, end + 9) != 1 ||
-          readAt<std::uint32_t>(list, end + 13) != 1) {
-        refuseExr(name_, fmt::format("channel '{}' is not one of numbers at every pixel",
-                                     list.substr(at, end - at)));
-      }
-      size += type == 1 ? 2 : 4;
+      out.push_back(
+          {list.substr(at, end - at), readAt<std::uint32_t>(list, end + 1),
+           readAt<std::uint32_t>(list, end + 9) == 1 && readAt<std::uint32_t>(list, end + 13) == 1});
       at = end + 17;
     }
-    if (size == 0 || at + 1 != list.size()) refuseExr(name_, "no channels, or something behind them");
+    if (out.empty() || at + 1 != list.size()) refuseExr(name_, "no channels, or something behind them");
+    return out;
+  }
+  // Y is grey alone; with X and Z or with chroma it is not.
+  void checkPictureChannels(const std::vector<Channel>& list) const {
+    const auto has = [&](std::string_view channel) {
+      return std::any_of(list.begin(), list.end(), [&](const Channel& c) { return c.name == channel; });
+    };
+    if (has("R") && has("G") && has("B")) return;
+    const bool chroma = has("RY") || has("BY");
+    const bool tristimulus = has("X") && has("Y");
+    if (has("Y") && !chroma && !tristimulus && !has("R") && !has("G") && !has("B")) return;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(list.size(), kNamedChannels); ++i)
+      names += fmt::format("{}{}", i == 0 ? "" : ", ", list[i].name);
+    if (list.size() > kNamedChannels) names += ", ...";
+    refuseExr(name_, fmt::format("need channels R, G and B, or Y alone; it has {}. {}", names,
+                                 chroma        ? "Luminance and chroma: write it anew as RGB"
+                                 : tristimulus ? "CIE X, Y and Z: convert it to linear RGB first"
+                                               : "Convert it, e.g. by `oiiotool in.exr --ch R,G,B -o "
+                                                 "out.exr`, with R=NAME for a channel of another name"));
+  }
+  // Of all channels.
+  std::int64_t bytesOfPixel(const std::vector<Channel>& list) const {
+    std::int64_t size = 0;
+    for (const Channel& c : list) {
+      const bool passedOver =
+          kind_ == ExrKind::kPicture && c.name != "R" && c.name != "G" && c.name != "B" && c.name != "Y";
+      if (!c.everyPixel || !(c.type == 1 || c.type == 2 || (c.type == 0 && passedOver))) {
+        refuseExr(name_, fmt::format("channel '{}' is not one of numbers at every pixel{}", c.name,
+                                     passedOver ? "; leave it out, e.g. by `oiiotool in.exr --ch R,G,B -o "
+                                                  "out.exr`"
+                                                : ""));
+      }
+      size += c.type == 1 ? 2 : 4;
+    }
     return size;
   }
   void checkSize(std::string_view window, std::size_t code, std::int64_t pixel,
@@ -140,10 +220,13 @@ class HeaderCheck {
     };
     const std::int64_t width = side(0);
     const std::int64_t height = side(4);
-    if (width < 1 || height < 1 || width > kMaxExrSide || height > kMaxExrSide)
-      refuseExr(name_, "a size that no table has");
-    if (code >= kCompressions.size())
-      refuseExr(name_, fmt::format("compression {}: lossy, which a table must not be, or unknown", code));
+    const std::int64_t largest =
+        kind_ == ExrKind::kPicture ? static_cast<std::int64_t>(kMaxPictureSide) : kMaxExrSide;
+    if (width < 1 || height < 1 || width > largest || height > largest)
+      refuseExr(name_, fmt::format("{} x {} pixels; need 1 to {}", width, height, largest));
+    if (code >= kCompressions.size()) refuseExr(name_, fmt::format("compression {} is unknown", code));
+    if (code >= kLossless && kind_ != ExrKind::kPicture)
+      refuseExr(name_, fmt::format("compression {} is lossy, which a {} must not be", code, thing()));
     const Compression& c = kCompressions[code];
     if (!tiles.empty()) return checkTiles(tiles, width, height, pixel, c.ratio);
     // a block is allocated whole, be the image lower or not; and the table of blocks has 8 bytes for each
@@ -177,6 +260,7 @@ class HeaderCheck {
   std::string_view bytes_;
   std::string name_;
   bool tiled_;
+  ExrKind kind_;
   std::size_t at_ = 0;
 };
 

@@ -53,15 +53,19 @@ class ExrInput : public OPENEXR_IMF_NAMESPACE::IStream {
 };
 
 enum class ExrKind {
-  kScanLines,
+  kTable,
+  kPicture,
   kMips,  ///< tiles of mip maps, sizes rounded down
 };
 
 /// Throws InputError: `name`, "EXR" and what is wrong.
 [[noreturn]] void refuseExr(const std::string& name, const std::string& what);
 
-/// Refuses what is not a single-part file of that kind with lossless compression and channels of halves and
-/// floats, and whatever would have OpenEXR allocate more than the file's length can hold.
+/// Refuses what is not a single-part file of that kind (tables and pictures: scan lines) with lossless
+/// compression and channels of halves and floats at every pixel, and whatever would have OpenEXR allocate
+/// more than the file's length can hold. A picture may be of a lossy compression; it must have channels R, G
+/// and B or grey Y, beside which other channels may be of any type, up to kMaxPictureSide pixels a side, and
+/// as data window its display window.
 void checkExrHeader(std::string_view bytes, const std::string& name, ExrKind kind);
 
 }  // namespace ltcfit

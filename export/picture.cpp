@@ -30,28 +30,21 @@ void checkSize(std::size_t width, std::size_t height, const std::string& name) {
   }
 }
 
-const std::vector<float>& channelOf(const ExrFile& file, const char* channel, const std::string& name) {
-  const auto at = std::find(file.names.begin(), file.names.end(), channel);
-  if (at == file.names.end()) throw InputError(name + ": EXR: need channels R, G and B, or Y");
-  return file.channels[static_cast<std::size_t>(at - file.names.begin())];
-}
-
 LinearPicture pictureOfExr(std::string_view bytes, const std::string& name) {
-  const ExrFile file = parseExr(bytes, name);
-  checkSize(file.width, file.height, name);
-  const bool grey = std::find(file.names.begin(), file.names.end(), "R") == file.names.end();
-  const std::array<const char*, 3> channels =
-      grey ? std::array<const char*, 3>{"Y", "Y", "Y"} : std::array<const char*, 3>{"R", "G", "B"};
+  const ExrFile file = parseExrPicture(bytes, name);
+  // in the order of their names: B, G, R, or Y alone
+  const std::size_t last = file.channels.size() - 1;
   LinearPicture picture{file.width, file.height, {}};
   picture.texels.resize(file.width * file.height);
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::vector<float>& values = channelOf(file, channels[c], name);
+    const std::size_t channel = last - std::min(c, last);
+    const std::vector<float>& values = file.channels[channel];
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!std::isfinite(values[i])) {
         throw InputError(fmt::format("{}: EXR: channel {}, row {}, column {} is not finite", name,
-                                     channels[c], i / file.width, i % file.width));
+                                     file.names[channel], i / file.width, i % file.width));
       }
-      picture.texels[i][static_cast<Eigen::Index>(c)] = static_cast<double>(values[i]);
+      picture.texels[i][static_cast<Eigen::Index>(c)] = std::max(0.0, static_cast<double>(values[i]));
     }
   }
   return picture;

@@ -31,9 +31,9 @@ bool isPng(std::string_view bytes);
 /// allocated.
 LinearPicture parsePng(std::string_view bytes, const std::string& name);
 
-/// A PNG, or an EXR of channels R, G and B or Y, which are linear (alpha is multiplied in there already, and
-/// ignored; negative values stay). InputError naming the file for anything else and for values that are not
-/// finite.
+/// A PNG, or an EXR as parseExrPicture reads it, which is linear (alpha is multiplied in there already, and
+/// ignored; negative values, which filters and colours out of gamut leave, become 0: no light has them).
+/// InputError naming the file for anything else and for values that are not finite.
 LinearPicture readPicture(const std::string& path);
 
 }  // namespace ltcfit

@@ -56,6 +56,8 @@ assert j['margin'] == 0.25 and j['aspect'] == 2 and j['size'] == 16 and j['level
 import json, sys
 assert json.load(sys.stdin)['files'][0]['path'] == 'n\ufffd.dds'" || fail "--json of a name that is no UTF-8"
 
+"$ltcfit" export "$source_dir/data/ltc_iso.json" --format exr -q -o m00.exr || fail "no table as EXR"
+
 touch after  # in the list too
 ls > before
 # expect MESSAGE COMMAND...
@@ -81,7 +83,8 @@ expect "thin.png: 65 x 1 pixels .* --aspect" thin.png -o x.dds
 expect "--size: Value -1 not in range" picture.png -o x.dds --size -1
 expect "size 48: need a power of two" picture.png -o x.dds --size 48
 expect "--float" picture.png -o x.dds --half --float
-expect "EXR" a.exr -o a2.exr # mip maps are no picture
+expect "a.exr: EXR: a tiled picture; .* --scanline" a.exr -o a2.exr # mip maps are no picture
+expect "m00.exr: EXR: need channels R, G and B, or Y alone; it has fresnel, m00, " m00.exr -o x.exr
 ls > after
 cmp -s before after || fail "files were left: $(diff before after)"
 finish
