@@ -7,6 +7,7 @@
 #include <ImfTiledOutputFile.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ double valueAt(std::size_t channel, std::size_t pixel) {
 }
 
 std::string bytesOf(const File& file) {
-  const std::string path = testing::TempDir() + "ltcfit-exr-picture.exr";
+  const std::string path = fmt::format("{}ltcfit-exr-picture-{}.exr", testing::TempDir(), ::getpid());
   imf::Header header(file.display, file.data);
   header.compression() = file.compression;
   if (file.tiled) header.setTileDescription(imf::TileDescription(16, 16, imf::ONE_LEVEL));

@@ -2,8 +2,10 @@
 // values; damaged ones.
 #include "export/picture.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
@@ -163,7 +165,7 @@ TEST(Picture, ClaimsOfSizeAreChecked) {
 }
 
 TEST(Picture, ExrIsLinear) {
-  const std::string path = testing::TempDir() + "ltcfit-picture.exr";
+  const std::string path = fmt::format("{}ltcfit-picture-{}.exr", testing::TempDir(), ::getpid());
   ExrFile file{2, 1, Precision::kFloat, {"B", "G", "R", "A"}, {{3, 6}, {2, 5}, {1, -4}, {0.5f, 0}}, {}};
   writeFileAtomically(path, channelsToExr(file));
   const LinearPicture picture = readPicture(path);

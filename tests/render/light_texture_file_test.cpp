@@ -1,7 +1,9 @@
 // Prefiltered textures through every kind of file.
 #include "render/light_texture_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -23,12 +25,19 @@ PrefilteredTexture example() {
   return prefilter(stainedGlass(24, 1), options);
 }
 
+// Of this process: tests run beside each other.
+std::string temporaryFolder() {
+  const std::string folder = fmt::format("{}ltcfit-light-{}", testing::TempDir(), ::getpid());
+  std::filesystem::create_directories(folder);
+  return folder + "/";
+}
+
 void write(const std::vector<ExportFile>& files) {
-  for (const ExportFile& file : files) writeFileAtomically(testing::TempDir() + file.name, file.bytes);
+  for (const ExportFile& file : files) writeFileAtomically(temporaryFolder() + file.name, file.bytes);
 }
 
 void remove(const std::vector<ExportFile>& files) {
-  for (const ExportFile& file : files) std::filesystem::remove(testing::TempDir() + file.name);
+  for (const ExportFile& file : files) std::filesystem::remove(temporaryFolder() + file.name);
 }
 
 TEST(LightTextureFiles, ComeBackAsTheyWere) {
@@ -38,7 +47,7 @@ TEST(LightTextureFiles, ComeBackAsTheyWere) {
       const auto files =
           lightTextureFiles(toLightTextureFile(texture, precision), name, Ktx2Compression::kZstd);
       write(files);
-      const PrefilteredTexture back = fromLightTextureFile(readLightTexture(testing::TempDir() + name));
+      const PrefilteredTexture back = fromLightTextureFile(readLightTexture(temporaryFolder() + name));
       EXPECT_EQ(back.margin, texture.margin);
       EXPECT_EQ(back.aspect, texture.aspect);
       EXPECT_EQ(back.lodScale, texture.lodScale);
@@ -56,6 +65,7 @@ TEST(LightTextureFiles, ComeBackAsTheyWere) {
       remove(files);
     }
   }
+  std::filesystem::remove_all(temporaryFolder());
 }
 
 TEST(LightTextureFiles, WhatIsNotOne) {
@@ -65,7 +75,7 @@ TEST(LightTextureFiles, WhatIsNotOne) {
   fewer.levels.pop_back();
   EXPECT_THROW(lightTextureFiles(fewer, "x.dds", Ktx2Compression::kNone), std::invalid_argument);
 
-  const std::string folder = testing::TempDir();
+  const std::string folder = temporaryFolder();
   std::vector<ExportFile> files = lightTextureFiles(good, "ltcfit-light.dds", Ktx2Compression::kNone);
   ASSERT_EQ(files.size(), 2u);
   files[0].bytes.back() = static_cast<char>(files[0].bytes.back() ^ 1);
@@ -83,7 +93,7 @@ TEST(LightTextureFiles, WhatIsNotOne) {
   EXPECT_THROW(readLightTexture(path), InputError);
   writeFileAtomically(path, "hello");
   EXPECT_THROW(readLightTexture(path), InputError);
-  std::filesystem::remove(path);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(LightTextureFiles, ValuesBeyondHalf) {
