@@ -52,7 +52,7 @@ std::string fileName(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-// CLI11's ranges let NaN through, and an empty name is a variable that was not set.
+// CLI11's ranges let NaN through.
 void checkArguments(const CheckGlArguments& a) {
   for (const auto& [name, value] : {std::pair{"--alpha-x", a.alphaX},
                                     {"--alpha-y", a.alphaY},
