@@ -90,10 +90,7 @@ ExrFile parse(std::string_view bytes, const std::string& name, ExrKind kind) {
     }
     input.setFrameBuffer(frame);
     input.readPixels(window.min.y, window.max.y);
-    for (auto a = header.begin(); a != header.end(); ++a) {
-      if (const auto* text = dynamic_cast<const imf::StringAttribute*>(&a.attribute()))
-        file.attributes.emplace_back(a.name(), text->value());
-    }
+    file.attributes = exrTexts(header);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

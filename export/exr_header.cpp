@@ -1,5 +1,6 @@
 #include "export/exr_header.h"
 
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -265,6 +266,15 @@ class HeaderCheck {
 };
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> exrTexts(const OPENEXR_IMF_NAMESPACE::Header& header) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (auto a = header.begin(); a != header.end(); ++a) {
+    if (const auto* text = dynamic_cast<const OPENEXR_IMF_NAMESPACE::StringAttribute*>(&a.attribute()))
+      out.emplace_back(a.name(), text->value());
+  }
+  return out;
+}
 
 void refuseExr(const std::string& name, const std::string& what) {
   throw InputError(name + ": EXR: " + what);

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <ImfHeader.h>
 #include <ImfIO.h>
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace ltcfit {
 
@@ -57,6 +59,9 @@ enum class ExrKind {
   kPicture,
   kMips,  ///< tiles of mip maps, sizes rounded down
 };
+
+/// Names and values of a header's attributes of type string.
+std::vector<std::pair<std::string, std::string>> exrTexts(const OPENEXR_IMF_NAMESPACE::Header& header);
 
 /// Throws InputError: `name`, "EXR" and what is wrong.
 [[noreturn]] void refuseExr(const std::string& name, const std::string& what);

@@ -83,10 +83,7 @@ ExrMips parseExrMips(std::string_view bytes, const std::string& name) {
       input.setFrameBuffer(frameOf(reinterpret_cast<char*>(level.values.data()), imf::FLOAT, level.width));
       input.readTiles(0, input.numXTiles(l) - 1, 0, input.numYTiles(l) - 1, l);
     }
-    for (auto a = header.begin(); a != header.end(); ++a) {
-      if (const auto* text = dynamic_cast<const imf::StringAttribute*>(&a.attribute()))
-        file.attributes.emplace_back(a.name(), text->value());
-    }
+    file.attributes = exrTexts(header);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -55,6 +55,16 @@ PolygonLight backLight(LightShape shape) {
   return makeLight(shape, Vector3d(0.8, 2.0, 1.3), Vector3d(-0.1, -1.0, -0.25), Vector2d(1.0, 0.7), 0.2);
 }
 
+// A plane of one ramp of roughness, and a light behind it as wide as it.
+Scene rampUnderAWideLight(const Material& ramp) {
+  Scene s;
+  s.camera.position = Vector3d(0, -6.0, 2.4);
+  s.camera.target = Vector3d(0, 0.4, 0.3);
+  s.surfaces = {ground(ramp, 3.0)};
+  s.lights = {makeLight(LightShape::kQuad, Vector3d(0, 2.6, 1.1), Vector3d(0, -1, -0.1), Vector2d(2.6, 0.8))};
+  return s;
+}
+
 CheckScene named(Scene scene, const char* name, const char* title, double floor, const char* loss) {
   scene.name = name;
   scene.title = title;
@@ -137,12 +147,7 @@ std::vector<CheckScene> isotropicScenes() {
   {
     Material m = glossy(0.0025);
     m.alphaEnd.setConstant(1.0);
-    Scene s;
-    s.camera.position = Vector3d(0, -6.0, 2.4);
-    s.camera.target = Vector3d(0, 0.4, 0.3);
-    s.surfaces = {ground(m, 3.0)};
-    s.lights = {
-        makeLight(LightShape::kQuad, Vector3d(0, 2.6, 1.1), Vector3d(0, -1, -0.1), Vector2d(2.6, 0.8))};
+    Scene s = rampUnderAWideLight(m);
     out.push_back(named(s, "ramp", "a plane whose roughness goes from 0.05 to 1", 50, kSharp));
   }
   {
@@ -214,12 +219,7 @@ std::vector<CheckScene> anisotropicScenes() {
   {
     Material m = brushed(0.04, 0.04, 0.4);
     m.alphaEnd = Vector2d(1.0, 0.04);
-    Scene s;
-    s.camera.position = Vector3d(0, -6.0, 2.4);
-    s.camera.target = Vector3d(0, 0.4, 0.3);
-    s.surfaces = {ground(m, 3.0)};
-    s.lights = {
-        makeLight(LightShape::kQuad, Vector3d(0, 2.6, 1.1), Vector3d(0, -1, -0.1), Vector2d(2.6, 0.8))};
+    Scene s = rampUnderAWideLight(m);
     out.push_back(named(s, "brushed-ramp", "a plane from isotropic to 25:1, alpha 0.04 across", 50, kSharp));
   }
   {
