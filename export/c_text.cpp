@@ -62,7 +62,10 @@ std::string originText(const Provenance& p) {
   return text;
 }
 
-std::string axisFormula(const Axis& axis) {
+namespace {
+
+// The coordinate before its warp.
+std::string evenFormula(const Axis& axis) {
   const std::string& v = axis.name;
   const bool full = axis.low == 0.0;
   switch (axis.map) {
@@ -81,6 +84,15 @@ std::string axisFormula(const Axis& axis) {
       break;
   }
   return "search the node values";
+}
+
+}  // namespace
+
+std::string axisFormula(const Axis& axis) {
+  if (axis.size() == 1) return fmt::format("one node, whatever the {}", axis.name);
+  if (axis.warp == AxisWarp{}) return evenFormula(axis);
+  return fmt::format("s + s (1 - s) ({:.9g} + {:.9g} (1 - 2 s)), s = {}", axis.warp[0], axis.warp[1],
+                     evenFormula(axis));
 }
 
 std::string valuesComment(const Axis& axis) {

@@ -110,6 +110,7 @@ Json axisToJson(const Axis& axis) {
   if (axis.map != AxisMap::kNone) {
     json["map"] = axisMapName(axis.map);
     json["range"] = {axis.low, axis.high};
+    if (axis.warp != AxisWarp{}) json["warp"] = axis.warp;
   }
   json["values"] = axis.values;
   return json;
@@ -130,6 +131,11 @@ Axis axisFromJson(const Json& json, const std::string& path) {
     if (range.size() != 2) throw InputError(reader.where("range") + " needs two numbers");
     axis.low = range[0];
     axis.high = range[1];
+  }
+  if (reader.has("warp")) {
+    const std::vector<double> warp = reader.numbers("warp");
+    if (warp.size() != 2) throw InputError(reader.where("warp") + " needs two numbers");
+    axis.warp = {warp[0], warp[1]};
   }
   return axis;
 }

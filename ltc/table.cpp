@@ -42,8 +42,8 @@ bool hasAxes(const std::vector<Axis>& axes, std::span<const AxisRange> ranges) {
 void validateAxis(const Axis& axis, const AxisRange& range) {
   const std::string where = "axis '" + axis.name + "'";
   const auto& v = axis.values;
-  if (v.size() < 2 || v.size() > kMaxNodes) {
-    fail(where + ": " + std::to_string(v.size()) + " values, need 2 to " + std::to_string(kMaxNodes));
+  if (v.empty() || v.size() > kMaxNodes) {
+    fail(where + ": " + std::to_string(v.size()) + " values, need 1 to " + std::to_string(kMaxNodes));
   }
   for (std::size_t i = 0; i < v.size(); ++i) {
     const std::string at = where + " values[" + std::to_string(i) + "]";
@@ -56,7 +56,13 @@ void validateAxis(const Axis& axis, const AxisRange& range) {
   }
   if (axis.unit != (range.high > 1.0 ? "rad" : "1"))
     fail(where + ": unit '" + axis.unit + "' is not " + (range.high > 1.0 ? "rad" : "1"));
+  if (axis.map == AxisMap::kNone && axis.warp != AxisWarp{}) fail(where + " has a warp, but no map");
   if (axis.map == AxisMap::kNone) return;
+  if (v.size() == 1) fail(where + " has one value, and can have no map");
+  if (!isMonotone(axis.warp)) {
+    fail(where + " warp: (" + std::to_string(axis.warp[0]) + ", " + std::to_string(axis.warp[1]) +
+         ") leaves nodes too far apart (ltc/axis.h)");
+  }
   if (!std::isfinite(axis.low) || !std::isfinite(axis.high) || !(axis.low < axis.high) ||
       axis.low < range.low || axis.high > range.high + kRangeSlack) {
     fail(where + " range: need two increasing numbers inside [" + std::to_string(range.low) + ", " +
@@ -273,7 +279,7 @@ TableEntry Table::fetch(const LobeParameters& asked) const {
   std::array<double, 4> fraction{};
   for (std::size_t a = 0; a < dims; ++a) {
     const double t = info_.axes[a].texelFromValue(value[a]);
-    base[a] = std::min(static_cast<std::size_t>(t), info_.axes[a].size() - 2);
+    base[a] = std::min(static_cast<std::size_t>(t), std::max<std::size_t>(info_.axes[a].size(), 2) - 2);
     fraction[a] = t - static_cast<double>(base[a]);
   }
   std::vector<double> channels(channelCount(), 0.0);

@@ -76,7 +76,7 @@ struct TableEntry {
 class Table {
  public:
   /// Throws std::invalid_argument naming the field: unknown or doubled channels, no matrix, axes other than
-  /// the two sets above, fewer than 2 nodes, values that do not increase or leave their range, a map that
+  /// the two sets above, no nodes, values that do not increase or leave their range, a map that
   /// does not fit the values, a count that is not the product, a number that is not finite.
   Table(TableInfo info, std::vector<float> data);
 

@@ -47,6 +47,20 @@ TEST(JsonTable, ReadsBackWhatWasWritten) {
   EXPECT_EQ(tableToJson(back), text);
 }
 
+TEST(JsonTable, WarpsAndSingleNodesSurvive) {
+  TableInfo info = test::smallTable().info();
+  info.axes[0] = makeAxis("theta", "rad", AxisMap::kSqrtOneMinusCos, 4, 0.1, 1.2, 0.0, {0.3, -0.125});
+  info.axes[1] = singleNodeAxis("alpha", "1", 0.25);
+  const Table table(info, std::vector<float>(4 * info.channels.size(), 1.0f));
+  const std::string text = tableToJson(table);
+  const Table back = tableFromJson(text, "T.json");
+  EXPECT_EQ(back.info().axes[0].warp, info.axes[0].warp);
+  EXPECT_EQ(back.info().axes[0].values, info.axes[0].values);
+  EXPECT_EQ(back.info().axes[1].values, info.axes[1].values);
+  EXPECT_EQ(tableToJson(back), text);
+  EXPECT_EQ(messageOf(replaced(text, "[0.3,-0.125]", "[0.3]")), "T.json: axes[0].warp needs two numbers");
+}
+
 TEST(JsonTable, EveryFloatSurvives) {
   // random bit patterns: all exponents, subnormals included
   Random random(1);

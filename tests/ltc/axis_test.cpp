@@ -43,6 +43,48 @@ TEST(Axis, TexelsAndValuesAreInversePairs) {
   EXPECT_DOUBLE_EQ(part.values.back(), 0.7);
 }
 
+TEST(Axis, WarpsAreInversePairs) {
+  // the last two touch the least density allowed: at an end, and inside
+  for (const AxisWarp warp : {AxisWarp{}, AxisWarp{0.6, 0.2}, AxisWarp{-0.8, -0.1}, AxisWarp{0.3, -0.6},
+                              AxisWarp{0.95, 0.0}, AxisWarp{-1.2, 0.28}, AxisWarp{0.0, 1.9}}) {
+    ASSERT_TRUE(isMonotone(warp)) << warp[0] << " " << warp[1];
+    EXPECT_EQ(warpCoordinate(warp, 0.0), 0.0);
+    EXPECT_EQ(warpCoordinate(warp, 1.0), 1.0);
+    double before = 0.0;
+    for (int i = 1; i < 1000; ++i) {
+      const double s = i / 1000.0;
+      const double t = warpCoordinate(warp, s);
+      EXPECT_GT(t - before, 0.9e-3 * kLeastWarpDensity);
+      before = t;
+      EXPECT_NEAR(unwarpCoordinate(warp, t), s, 1e-13);  // rounding over the least density
+      EXPECT_NEAR(warpCoordinate(warp, unwarpCoordinate(warp, s)), s, 1e-14);
+    }
+  }
+  // too sparse at an end, inside, folded, not a number
+  for (const AxisWarp warp : {AxisWarp{0.96, 0.0}, AxisWarp{0.0, 1.95}, AxisWarp{0.0, -0.96},
+                              AxisWarp{1.5, 0.3}, AxisWarp{std::nan(""), 0.0}}) {
+    EXPECT_FALSE(isMonotone(warp)) << warp[0] << " " << warp[1];
+  }
+}
+
+TEST(Axis, WarpedNodesCrowdWhereToldTo) {
+  const Axis low = makeAxis("alpha", "1", AxisMap::kSqrt, 5, 0.09, 0.49, 0.0, {0.8, 0.0});
+  const auto gap = [&](std::size_t i) { return std::sqrt(low.values[i + 1]) - std::sqrt(low.values[i]); };
+  EXPECT_LT(gap(0), 0.6 * gap(3));
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(low.texelFromValue(low.values[i]), double(i), 1e-12);
+  EXPECT_DOUBLE_EQ(low.values.front(), 0.09);
+  EXPECT_DOUBLE_EQ(low.values.back(), 0.49);
+  EXPECT_FALSE(
+      makeAxis("alpha", "1", AxisMap::kSqrt, 5, 0.0, 1.0, 0.0, {0.8, 0.0}).spans(AxisMap::kSqrt, 1.0));
+}
+
+TEST(Axis, OneNodeAnswersEverything) {
+  const Axis axis = singleNodeAxis("alpha", "1", 0.25);
+  for (double v : {0.0, 0.25, 1.0}) EXPECT_EQ(axis.texelFromValue(v), 0.0);
+  EXPECT_EQ(axis.valueFromTexel(0.0), 0.25);
+  EXPECT_FALSE(axis.spans(AxisMap::kNone, 0.25));
+}
+
 TEST(Axis, TheFloorMovesOnlyTheFirstNode) {
   const Axis axis = makeAxis("alpha", "1", AxisMap::kSqrt, 64, 0.0, 1.0, 1e-4);
   EXPECT_EQ(axis.values[0], 1e-4);

@@ -69,6 +69,36 @@ TEST(Table, EntriesAndFetchesAgreeAtNodes) {
   }
 }
 
+TEST(Table, AnAxisMayHaveOneNode) {
+  TableInfo info = smallInfo();
+  info.axes[1] = singleNodeAxis("alpha", "1", 0.25);
+  std::vector<float> data = smallData();
+  data.resize(3 * 7);
+  const Table row(info, data);
+  const double theta = kHalfPi / 4.0;
+  for (double alpha : {0.01, 0.25, 1.0}) {
+    EXPECT_NEAR(row.fetch({alpha, alpha, theta, 0.0}).m(0, 0), 0.5 * (1.0 + 2.0), 1e-6);
+  }
+  info.axes[1].map = AxisMap::kSqrt;
+  EXPECT_EQ(messageOf(info, data), "axis 'alpha' has one value, and can have no map");
+}
+
+TEST(Table, WarpedAxes) {
+  TableInfo info = smallInfo();
+  info.axes[0] = makeAxis("theta", "rad", AxisMap::kLinear, 3, 0.0, kHalfPi, 0.0, {0.5, 0.0});
+  const Table table(info, smallData());
+  EXPECT_LT(info.axes[0].values[1], kHalfPi / 2.0);
+  const std::size_t node[2] = {1, 1};
+  const TableEntry e = table.fetch({1.0, 1.0, info.axes[0].values[1], 0.0});
+  EXPECT_NEAR(e.m(0, 0), table.entry(node).m(0, 0), 1e-6);
+  // nodes that lie elsewhere than the warp says, and one that folds
+  info.axes[0].warp = {-0.5, 0.0};
+  EXPECT_EQ(messageOf(info, smallData()), "axis 'theta' values[1] is not where its map 'linear' puts it");
+  info.axes[0].warp = {2.0, 0.0};
+  EXPECT_EQ(messageOf(info, smallData()),
+            "axis 'theta' warp: (2.000000, 0.000000) leaves nodes too far apart (ltc/axis.h)");
+}
+
 TEST(Table, FetchIsBilinearInTheMappedCoordinates) {
   const Table table(smallInfo(), smallData());
   // halfway in theta between rows 0 and 1, sqrt(alpha) = 1/4 of the way
@@ -156,7 +186,9 @@ TEST(Table, RefusesWhatIsNotATable) {
   expectMessage(
       "range", [](TableInfo& i) { i.axes[0].high = i.axes[0].low; }, data);
   expectMessage(
-      "1 values", [](TableInfo& i) { i.axes[1].values.pop_back(); }, data);
+      "0 values", [](TableInfo& i) { i.axes[1].values.clear(); }, data);
+  expectMessage(
+      "one value", [](TableInfo& i) { i.axes[1].values.pop_back(); }, data);
   expectMessage(
       "unknown name 'm33'", [](TableInfo& i) { i.channels[0] = "m33"; }, data);
   expectMessage(
