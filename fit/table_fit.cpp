@@ -24,9 +24,19 @@ Matrix3d rounded(const Matrix3d& m) {
   return unitThirdColumn(m).cast<float>().cast<double>();
 }
 
-// The matrix of a node, before rounding.
-Matrix3d nodeMatrix(const NodeSource& node, const JobResult& job) {
-  return projectOnFamily(turned(projectOnFamily(job.m, node.jobFamily), node.rotation), node.family);
+bool isUsable(const Matrix3d& m) {
+  return m.allFinite() && m.determinant() != 0.0;
+}
+
+// Of the same lobe: det > 0, third column of length 1.
+Matrix3d canonical(Matrix3d m) {
+  if (m.determinant() < 0.0) m.col(1) *= -1.0;
+  return unitThirdColumn(m);
+}
+
+// The matrix of a node, before rounding, from its job's aligned one.
+Matrix3d nodeMatrix(const NodeSource& node, const Matrix3d& m) {
+  return projectOnFamily(turned(projectOnFamily(m, node.jobFamily), node.rotation), node.family);
 }
 
 }  // namespace
@@ -43,11 +53,9 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions
   r.evaluations = fit.evaluations;
   r.termination = fit.termination;
   r.integralError = fit.integralError;
-  Matrix3d m = fit.m;
-  r.fitted = m.allFinite() && m.determinant() != 0.0;
+  r.fitted = isUsable(fit.m);
   if (!r.fitted) return r;
-  if (m.determinant() < 0.0) m.col(1) *= -1.0;
-  m = unitThirdColumn(m);
+  const Matrix3d m = canonical(fit.m);
   r.loss = judge(m, nullptr);
 
   const Alignment aligned = align(m);
@@ -61,6 +69,19 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions
   r.symmetricLoss = symmetric == r.m ? r.alignedLoss : judge(symmetric, nullptr);
   r.storedLoss = judge(rounded(symmetric), nullptr);
   return r;
+}
+
+NodeFit fitNode(const TablePlan& plan, std::size_t node, const LobeFitOptions& options) {
+  const NodeSource& source = plan.nodes[node];
+  LobeFitTarget target(plan.jobs[source.job], plan.info.brdf, options);
+  const LobeFit fit = fitLobe(target, target.momentStart(), options);
+  NodeFit out;
+  out.norm = target.moments().albedo;
+  out.fresnel = target.moments().fresnel;
+  if (!isUsable(fit.m)) return out;
+  out.m = unitThirdColumn(nodeMatrix(source, align(canonical(fit.m)).m));
+  out.usable = out.m.allFinite() && out.m.determinant() > 0.0;
+  return out;
 }
 
 TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const TableFitOptions& options,
@@ -92,7 +113,7 @@ TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const Tabl
       const std::unique_ptr<Lobe> lobe = makeTargetLobe(plan.info.brdf, plan.jobs[i].parameters);
       ProjectedCdfLoss judge = makeLoss(makeTarget(*lobe, plan.jobs[i].family, options.sw),
                                         options.sw.levels.back(), options.sw.seed);
-      const Matrix3d m = nodeMatrix(plan.nodes[i], result.jobs[plan.nodes[i].job]);
+      const Matrix3d m = nodeMatrix(plan.nodes[i], result.jobs[plan.nodes[i].job].m);
       result.jobs[i].symmetricLoss = judge(m, nullptr);
       result.jobs[i].storedLoss = judge(rounded(m), nullptr);
       return [] {};
@@ -102,7 +123,7 @@ TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const Tabl
   const std::vector<std::string>& channels = plan.info.channels;
   for (const NodeSource& node : plan.nodes) {
     const JobResult& job = result.jobs[node.job];
-    const Matrix3d m = rounded(nodeMatrix(node, job));
+    const Matrix3d m = rounded(nodeMatrix(node, job.m));
     for (const std::string& c : channels) {
       double value = 0.0;
       if (c == "norm") {

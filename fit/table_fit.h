@@ -69,6 +69,19 @@ using TableFitProgress = std::function<void(std::size_t done, std::size_t total)
 /// Fits one lobe: a function of its arguments alone, so that neither threads nor interruptions show.
 JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions& options);
 
+/// A lobe fitted alone, as a node of a table has it.
+struct NodeFit {
+  Eigen::Matrix3d m =
+      Eigen::Matrix3d::Identity();  ///< aligned, of the lobe's symmetry, third column of length 1
+  double norm = 0.0;
+  double fresnel = 0.0;
+  bool usable = false;  ///< finite, det > 0
+};
+
+/// Fits the one node of a plan: what fitTable makes of it in SymmetryMode::kDuring, up to rounding to
+/// float32, without the figures of JobResult, which cost more than the fit.
+NodeFit fitNode(const TablePlan& plan, std::size_t node, const LobeFitOptions& options);
+
 /// Fits every job of the plan that `store` (may be null) does not have, and makes the nodes. In
 /// SymmetryMode::kAfter, where jobs are nodes, symmetricLoss and storedLoss are of the node's final matrix,
 /// which another job's may be. `options` must be valid. Exceptions of the store come through.

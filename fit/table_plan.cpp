@@ -95,15 +95,21 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& m, double angle) {
 }
 
 TablePlan planIsotropicTable(const IsotropicTableOptions& o) {
+  return planIsotropicTable({thetaAxis(angleMap(o.axes), o.thetaNodes, o.thetaMax),
+                             makeAxis("alpha", "1", AxisMap::kSqrt, o.alphaNodes, 0.0, 1.0, o.alphaFloor)},
+                            o.alphaFloor);
+}
+
+TablePlan planIsotropicTable(std::vector<Axis> axes, double alphaFloor) {
   TablePlan plan;
-  plan.info.axes = {thetaAxis(angleMap(o.axes), o.thetaNodes, o.thetaMax),
-                    makeAxis("alpha", "1", AxisMap::kSqrt, o.alphaNodes, 0.0, 1.0, o.alphaFloor)};
+  plan.info.axes = std::move(axes);
   plan.info.stores = MatrixStorage::kM;
   plan.info.normalization = MatrixNormalization::kThirdColumnUnit;
   plan.info.channels = {"m00", "m02", "m11", "m20", "m22", "norm", "fresnel"};
-  plan.info.alphaFloor = o.alphaFloor;
+  plan.info.alphaFloor = alphaFloor;
   for (const double theta : plan.info.axes[0].values) {
-    for (const double alpha : plan.info.axes[1].values) {
+    for (const double value : plan.info.axes[1].values) {
+      const double alpha = std::max(value, alphaFloor);
       const LobeParameters p{alpha, alpha, theta, 0.0};
       plan.nodes.push_back({plan.jobs.size(), 0.0, familyOf(p), familyOf(p)});
       plan.jobs.push_back({p, familyOf(p)});
@@ -113,23 +119,29 @@ TablePlan planIsotropicTable(const IsotropicTableOptions& o) {
 }
 
 TablePlan planAnisotropicTable(const AnisotropicTableOptions& o, SymmetryMode symmetry) {
+  return planAnisotropicTable({makeAxis("alpha", "1", AxisMap::kLinear, o.alphaNodes, 0.0, 1.0, o.alphaFloor),
+                               makeAxis("lambda", "1", AxisMap::kLinear, o.lambdaNodes, 0.0, 1.0),
+                               thetaAxis(AxisMap::kLinear, o.thetaNodes, o.thetaMax),
+                               makeAxis("phi", "rad", AxisMap::kLinear, o.phiNodes, 0.0, kHalfPi)},
+                              o.alphaFloor, symmetry);
+}
+
+TablePlan planAnisotropicTable(std::vector<Axis> axes, double alphaFloor, SymmetryMode symmetry) {
   TablePlan plan;
-  plan.info.axes = {makeAxis("alpha", "1", AxisMap::kLinear, o.alphaNodes, 0.0, 1.0, o.alphaFloor),
-                    makeAxis("lambda", "1", AxisMap::kLinear, o.lambdaNodes, 0.0, 1.0),
-                    thetaAxis(AxisMap::kLinear, o.thetaNodes, o.thetaMax),
-                    makeAxis("phi", "rad", AxisMap::kLinear, o.phiNodes, 0.0, kHalfPi)};
+  plan.info.axes = std::move(axes);
   plan.info.stores = MatrixStorage::kM;
   plan.info.normalization = MatrixNormalization::kThirdColumnUnit;
   plan.info.channels = {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22", "norm", "fresnel"};
-  plan.info.alphaFloor = o.alphaFloor;
+  plan.info.alphaFloor = alphaFloor;
 
   // jobs by the parameters that a lobe really depends on, at the first node that has them
   std::map<std::tuple<double, double, double, double>, std::size_t> jobOf;
-  for (const double alpha : plan.info.axes[0].values) {
+  for (const double value : plan.info.axes[0].values) {
+    const double alpha = std::max(value, alphaFloor);
     for (const double lambda : plan.info.axes[1].values) {
       for (const double theta : plan.info.axes[2].values) {
         for (const double phi : plan.info.axes[3].values) {
-          const LobeParameters node{alpha, std::max(alpha * lambda, o.alphaFloor), theta, phi};
+          const LobeParameters node{alpha, std::max(alpha * lambda, alphaFloor), theta, phi};
           LobeParameters lobe = node;
           const bool isotropic = node.alphaX == node.alphaY;
           if (isotropic || theta == 0.0) lobe.phi = 0.0;

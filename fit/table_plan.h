@@ -74,6 +74,11 @@ struct TablePlan {
 TablePlan planIsotropicTable(const IsotropicTableOptions& options);
 TablePlan planAnisotropicTable(const AnisotropicTableOptions& options, SymmetryMode symmetry);
 
+/// The same for axes of any ranges, sizes and warps: theta, alpha, or alpha, lambda, theta, phi, whose values
+/// are valid for a Table. alpha_x and alpha_y of a node are no smaller than `alphaFloor`.
+TablePlan planIsotropicTable(std::vector<Axis> axes, double alphaFloor);
+TablePlan planAnisotropicTable(std::vector<Axis> axes, double alphaFloor, SymmetryMode symmetry);
+
 /// The symmetry of a lobe, from its parameters: exact comparisons, phi in [0, pi/2].
 MatrixFamily familyOf(const LobeParameters& parameters);
 

@@ -117,6 +117,48 @@ TEST(TableFit, EveryFitterMakesAUsableSymmetricTable) {
   }
 }
 
+TEST(TableFit, OneNodeAloneIsWhatTheTableHas) {
+  const TablePlan plan = planAnisotropicTable(smallTable(), SymmetryMode::kDuring);
+  TableFitOptions options = quick();
+  options.fitter = Fitter::kLight;
+  const Table table(plan.info, fitTable(plan, SymmetryMode::kDuring, options, nullptr).data);
+  // also a node whose lobe is another's turned, and one at normal view
+  for (std::size_t node : {0u, 5u, 40u, 50u, 76u, 80u}) {
+    const NodeFit alone = fitNode(plan, node, options);
+    ASSERT_TRUE(alone.usable);
+    const TableEntry entry = table.entry(table.node(node));
+    EXPECT_LT((alone.m - entry.m).norm(), 1e-6) << node;  // float32
+    EXPECT_NEAR(alone.norm, *entry.norm, 1e-7);
+    EXPECT_NEAR(alone.fresnel, *entry.fresnel, 1e-7);
+  }
+}
+
+TEST(TableFit, AxesOfAnyRangeWarpAndSize) {
+  const std::vector<Axis> axes{makeAxis("alpha", "1", AxisMap::kLinear, 3, 0.2, 0.5, 0.0, {0.3, 0.1}),
+                               singleNodeAxis("lambda", "1", 0.4),
+                               makeAxis("theta", "rad", AxisMap::kLinear, 2, 0.1, 1.2),
+                               singleNodeAxis("phi", "rad", 0.7)};
+  const TablePlan plan = planAnisotropicTable(axes, 0.1, SymmetryMode::kDuring);
+  ASSERT_EQ(plan.jobs.size(), 6u);
+  EXPECT_EQ(plan.jobs[0].parameters.alphaY, 0.1);  // 0.08 but for the floor
+  EXPECT_EQ(plan.jobs[5].parameters.alphaX, 0.5);
+  EXPECT_EQ(plan.jobs[5].parameters.alphaY, 0.2);
+  EXPECT_EQ(plan.jobs[5].parameters.theta, 1.2);
+  TableFitOptions options = quick();
+  options.fitter = Fitter::kLight;
+  const TableFitResult result = fitTable(plan, SymmetryMode::kDuring, options, nullptr);
+  EXPECT_EQ(result.unusable, 0u);
+  const Table table(plan.info, result.data);
+  EXPECT_EQ(table.parameters(table.node(0)).alphaY, 0.1);
+
+  const TablePlan row =
+      planIsotropicTable({makeAxis("theta", "rad", AxisMap::kSqrtOneMinusCos, 4, 0.0, kHalfPi),
+                          singleNodeAxis("alpha", "1", 0.16)},
+                         1e-4);
+  EXPECT_EQ(row.jobs.size(), 4u);
+  EXPECT_EQ(row.jobs[0].family, MatrixFamily::kRotational);
+}
+
 TEST(TableFit, EnforcingSymmetryAfterwardsCostsAndIsReported) {
   const TablePlan plan = planAnisotropicTable(smallTable(), SymmetryMode::kAfter);
   const TableFitResult result = fitTable(plan, SymmetryMode::kAfter, quick(), nullptr);
