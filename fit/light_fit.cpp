@@ -107,7 +107,7 @@ bool LightProblem::evaluate(const Matrix3d& base, const double* p, double* resid
   for (std::size_t k = 0; k < count; ++k) last[2 + k] = prior * q.cwiseProduct(basis[k]).sum() / unit;
   if (jacobian == nullptr) {
     for (std::size_t j = 0; j < lights->size(); ++j) {
-      const PolygonLight& l = (*lights)[j];
+      const IntegratedLight& l = (*lights)[j];
       residuals[j] = l.weight * (ltcPolygonIntegral(ltc, l.quad) - l.integral);
     }
     return true;
@@ -118,7 +118,7 @@ bool LightProblem::evaluate(const Matrix3d& base, const double* p, double* resid
   for (std::size_t k = 0; k < count; ++k) relative[k] = inverse * basis[k];
   double* row = jacobian;
   for (std::size_t j = 0; j < lights->size(); ++j) {
-    const PolygonLight& l = (*lights)[j];
+    const IntegratedLight& l = (*lights)[j];
     Matrix3d gradient;
     residuals[j] = l.weight * (ltcPolygonIntegral(ltc, l.quad, &gradient) - l.integral);
     for (std::size_t k = 0; k < count; ++k) *row++ = l.weight * gradient.cwiseProduct(relative[k]).sum();
@@ -150,7 +150,7 @@ double LightProblem::cost(const Matrix3d& m) const {
   return 0.5 * sum;
 }
 
-LightProblem makeLightProblem(const std::vector<PolygonLight>& lights, const LightTarget& target,
+LightProblem makeLightProblem(const std::vector<IntegratedLight>& lights, const LightTarget& target,
                               const Matrix3d& near, const LightFitOptions& options) {
   LightProblem problem{.lights = &lights, .family = target.family};
   const double n = static_cast<double>(lights.size());

@@ -33,7 +33,7 @@ LightFitOptions lightFitPreset(std::string_view name);
 ///   prior <B_k, Q> / (tr Q / 3), Q = reference^-1 m, one for each matrix B_k of familyBasis(): how far m is
 ///   from a reference. It decides what no light sees, as the small axis of a needle.
 struct LightProblem {
-  const std::vector<PolygonLight>* lights;
+  const std::vector<IntegratedLight>* lights;
   MatrixFamily family;
   double leak = 0.0;
   double prior = 0.0;
@@ -70,7 +70,7 @@ struct LightTarget {
 /// `near` (RMS): leak^2 below is leakWeight n e below next to the n squares, the change of their RMS with the
 /// mass below in multiples of leakWeight / 2; the prior makes a step of 1, about the whole matrix, cost a
 /// tenth of n e^2. Keeps a reference to `lights`.
-LightProblem makeLightProblem(const std::vector<PolygonLight>& lights, const LightTarget& target,
+LightProblem makeLightProblem(const std::vector<IntegratedLight>& lights, const LightTarget& target,
                               const Eigen::Matrix3d& near, const LightFitOptions& options);
 
 /// Minimises the problem over the matrices of its family from `start`, det > 0, by Levenberg-Marquardt

@@ -212,9 +212,9 @@ PolygonLights makePolygonLights(const ContourIntegrator& truth, double albedo, c
                           0.0, std::pow(std::max(size, kSmallest), -options.sizeExponent)});
   }
   double squares = 0.0;
-  for (const PolygonLight& l : out.lights) squares += l.weight * l.weight;
+  for (const IntegratedLight& l : out.lights) squares += l.weight * l.weight;
   const double scale = std::sqrt(static_cast<double>(out.lights.size()) / squares);
-  for (PolygonLight& l : out.lights) l.weight *= scale;
+  for (IntegratedLight& l : out.lights) l.weight *= scale;
   out.integralError += std::abs(truth.hemisphere() / albedo - 1.0);
   return out;
 }

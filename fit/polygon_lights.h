@@ -36,14 +36,14 @@ struct PolygonLightOptions {
 };
 
 /// One light of the family.
-struct PolygonLight {
+struct IntegratedLight {
   Quad quad;
   double integral;  ///< of the lobe, eval / albedo, over it: what an LTC should give, 0..1
   double weight;    ///< of the difference, > 0; the squares of a family's weights average about 1
 };
 
 struct PolygonLights {
-  std::vector<PolygonLight> lights;
+  std::vector<IntegratedLight> lights;
   double integralError = 0.0;  ///< estimated largest error of an integral
 };
 

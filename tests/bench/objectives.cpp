@@ -91,14 +91,14 @@ void slicedLossCells(benchmark::State& state) {
 }
 BENCHMARK(slicedLossCells)->Unit(benchmark::kMicrosecond);
 
-std::vector<PolygonLight> lightFamily(int count) {
+std::vector<IntegratedLight> lightFamily(int count) {
   const ContourIntegrator truth(anisotropicLobe());
   PolygonLightOptions options;
   options.lights = count;
   return makePolygonLights(truth, anisotropicMoments().albedo, anisotropicMatrix(), options).lights;
 }
 
-double rmsError(const std::vector<PolygonLight>& family) {
+double rmsError(const std::vector<IntegratedLight>& family) {
   const LightProblem problem{.lights = &family, .family = kFamily};
   return std::sqrt(2.0 * problem.cost(anisotropicMatrix()) / static_cast<double>(family.size()));
 }
@@ -106,7 +106,7 @@ double rmsError(const std::vector<PolygonLight>& family) {
 // Residuals of the light-space fit, and with their Jacobian: 7 parameters.
 enum class Derivatives { kNone, kJacobian };
 void lightResiduals(benchmark::State& state, Derivatives derivatives) {
-  const std::vector<PolygonLight> family = lightFamily(static_cast<int>(state.range(0)));
+  const std::vector<IntegratedLight> family = lightFamily(static_cast<int>(state.range(0)));
   const LightProblem problem{.lights = &family, .family = kFamily};
   const std::vector<double> p(familyBasis(kFamily).size(), 0.0);
   std::vector<double> residuals(problem.residualCount());

@@ -50,8 +50,8 @@ const std::vector<LobeParameters>& someLobes() {
 }
 
 // The problem whose answer is known: lights of an LTC.
-std::vector<PolygonLight> planted(std::vector<PolygonLight> lights, const Matrix3d& m) {
-  for (PolygonLight& l : lights) l.integral = ltcPolygonIntegral(Ltc(m), l.quad);
+std::vector<IntegratedLight> planted(std::vector<IntegratedLight> lights, const Matrix3d& m) {
+  for (IntegratedLight& l : lights) l.integral = ltcPolygonIntegral(Ltc(m), l.quad);
   return lights;
 }
 
@@ -62,7 +62,7 @@ TEST(LightFit, RecoversPlantedMatrices) {
     std::vector<double> step(familyBasis(c.family).size(), 0.15);
     step.back() = -0.1;
     const Matrix3d m = changedBy(c.start, c.family, step);
-    const std::vector<PolygonLight> known = planted(lights.lights, m);
+    const std::vector<IntegratedLight> known = planted(lights.lights, m);
     LightFitOptions options;
     options.relativeCostTolerance = 1e-12;
     const LightFit fit = solveLightProblem({.lights = &known, .family = c.family}, c.start, options);
@@ -125,7 +125,7 @@ TEST(LightProblem, PassesCeresGradientCheckerAndAWrongJacobianDoesNot) {
 }
 
 TEST(LightProblem, LeakResidualsAreTheMassBelow) {
-  const std::vector<PolygonLight> none;
+  const std::vector<IntegratedLight> none;
   Random random(5);
   for (int i = 0; i < 50; ++i) {
     Matrix3d m = Matrix3d::Identity();

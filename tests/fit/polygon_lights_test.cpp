@@ -50,7 +50,7 @@ TEST(PolygonLights, CoverTheHemisphereAllSizesAndTheHorizon) {
   double largest = 0.0;
   double squares = 0.0;
   for (std::size_t i = 0; i < family.lights.size(); ++i) {
-    const PolygonLight& l = family.lights[i];
+    const IntegratedLight& l = family.lights[i];
     EXPECT_GT(l.weight, 0.0);
     squares += l.weight * l.weight;
     const auto up =
@@ -89,7 +89,7 @@ TEST(PolygonLights, WeightedMeansAreThoseOfUniformLights) {
     double aimed = 0.0;
     double weights = 0.0;
     for (int i = 0; i < options.lights; ++i) {
-      const PolygonLight& l = family.lights[static_cast<std::size_t>(i)];
+      const IntegratedLight& l = family.lights[static_cast<std::size_t>(i)];
       aimed += std::pow(l.weight * (ltcPolygonIntegral(a, l.quad) - ltcPolygonIntegral(b, l.quad)), 2);
       weights += l.weight * l.weight;
     }
