@@ -1,10 +1,17 @@
 #include "ltc/resample.h"
 
-#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 namespace ltcfit {
 namespace {
+
+// Of angles in files of float32.
+constexpr double kRounding = 1e-6;
+// How far below 90 degrees the last view of a fit may be: the table of 2017 has 8e-4.
+constexpr double kClampedAngle = 1e-3;
 
 // Where a shader finds a node: its texel's coordinate, which at clamped ends is not the value it was fitted
 // with.
@@ -14,7 +21,35 @@ LobeParameters texelParameters(const TableInfo& info, const std::vector<std::siz
   return {value(0), value(0) * value(1), value(2), value(3)};
 }
 
+void refuseBeyond(const TableInfo& is, const TableInfo& wanted) {
+  for (std::size_t a = 0; a < is.axes.size(); ++a) {
+    const AxisReach has = reachOf(is, a);
+    const AxisReach asked = reachOf(wanted, a);
+    if (asked.low >= has.low - kRounding && asked.high <= has.high + kRounding) continue;
+    std::ostringstream text;
+    text << "axis '" << is.axes[a].name << "' goes from " << has.low << " to " << has.high
+         << " in this table, and " << asked.low << " to " << asked.high
+         << " is asked for: nothing is known beyond its ends";
+    throw std::invalid_argument(text.str());
+  }
+}
+
 }  // namespace
+
+AxisReach reachOf(const TableInfo& info, std::size_t axis) {
+  const Axis& a = info.axes[axis];
+  const bool angle = a.unit == "rad";
+  const double end = angle ? 0.5 * std::numbers::pi : 1.0;
+  AxisReach reach{a.low, a.high};
+  if (a.map == AxisMap::kNone) {
+    reach = {a.values.front(), a.values.back()};
+    if (a.size() > 1 && a.name == "alpha" && reach.low <= info.alphaFloor) reach.low = 0.0;
+    if (a.size() > 1 && angle && reach.high >= end - kClampedAngle) reach.high = end;
+  }
+  if (std::abs(reach.low) <= kRounding) reach.low = 0.0;
+  if (std::abs(reach.high - end) <= kRounding) reach.high = end;
+  return reach;
+}
 
 Table resampled(const Table& table, std::vector<Axis> axes) {
   TableInfo info = table.info();
@@ -31,6 +66,7 @@ Table resampled(const Table& table, std::vector<Axis> axes) {
   std::size_t nodes = 1;
   for (const Axis& axis : info.axes) nodes *= axis.size();
   const Table target(info, std::vector<float>(nodes * info.channels.size()));  // checks axes, numbers nodes
+  refuseBeyond(table.info(), info);
   std::vector<float> data;
   data.reserve(target.data().size());
   for (std::size_t i = 0; i < nodes; ++i) {
