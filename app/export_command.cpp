@@ -172,9 +172,7 @@ const FormatInfo& formatOf(const ExportArguments& a) {
 int exportFormat(const ExportArguments& a, const Table& table) {
   const FormatInfo& format = formatOf(a);
   FormatOptions options;
-  options.layout = a.layout.empty()       ? format.standard
-                   : a.layout == "packed" ? Layout::kPacked
-                                          : Layout::kChannels;
+  options.layout = a.layout.empty() ? format.standard : layoutFromName(a.layout);
   options.precision = a.precision == "half" ? Precision::kHalf : Precision::kFloat;
   options.prefix = a.prefix;
   if (a.ddsHeader == "legacy") options.ddsHeader = DdsHeader::kLegacy;
@@ -228,9 +226,10 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("-o,--output", a->output, "File to write; a folder for profiles of several files")
       ->type_name("PATH");
   command
-      ->add_option("--format", a->format,
-                   "h, hlsl, glsl, dds, exr, json, npy, ktx2, js, bin [by the output's name; h where it has "
-                   "no extension]")
+      ->add_option(
+          "--format", a->format,
+          "h, hlsl, glsl, glsl-lookup, hlsl-lookup, dds, exr, json, npy, ktx2, js, bin [by the output's\n"
+          "name; h where it has no extension]")
       ->type_name("NAME");
   command
       ->add_option(
@@ -241,10 +240,12 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
   command->add_flag("--list", a->list, "Show all formats and profiles with their layout, and end");
   command->add_flag("--resample", a->resample, "Let a profile interpolate a table of other axes or size");
   command
-      ->add_option("--layout", a->layout,
-                   "packed: as shaders read it; channels: every channel as the table stores it, lossless\n"
-                   "[channels for exr and npy, else packed]")
-      ->check(CLI::IsMember({"packed", "channels"}));
+      ->add_option(
+          "--layout", a->layout,
+          "packed: as shaders read it; lean: the same without what the table lacks, for glsl-lookup\n"
+          "and hlsl-lookup; channels: every channel as the table stores it, lossless\n"
+          "[channels for exr and npy, else packed]")
+      ->check(CLI::IsMember({"packed", "channels", "lean"}));
   command
       ->add_option("--precision", a->precision,
                    "float, or half: rounded so that lobes stay, no diagonal entry zero or subnormal,\n"

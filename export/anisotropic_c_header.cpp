@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <stdexcept>
 
 #include "export/c_text.h"
@@ -13,7 +12,7 @@
 namespace ltcfit {
 namespace {
 
-std::string comment(const Table& table, const std::string& name, bool amplitude) {
+std::string comment(const Table& table, const std::string& name, const std::vector<std::string>& channels) {
   const TableInfo& info = table.info();
   std::size_t negative = 0;
   for (std::size_t i = 0; i < table.nodeCount(); ++i)
@@ -45,13 +44,7 @@ std::string comment(const Table& table, const std::string& name, bool amplitude)
       negative == 0
           ? std::string("det M > 0 at every node.")
           : fmt::format("det M < 0 at {} nodes:\n *   take the absolute value of the integral.", negative));
-  if (amplitude) {
-    out += fmt::format(
-        " * {}_amplitude: (norm, fresnel), the directional albedo n_D and the Schlick-weighted albedo f_D.\n"
-        " *   specular = F0 * norm + (F90 - F0) * fresnel, for Schlick's Fresnel; F90 = 1 where not known "
-        "better.\n",
-        name);
-  }
+  if (!channels.empty()) out += amplitudeComment(name + "_amplitude", channels, ", ");
   out += fmt::format(" *\n * alpha_x and alpha_y were fitted no smaller than {:.9g}. Node values:\n",
                      info.alphaFloor);
   for (const Axis& axis : info.axes) out += fmt::format(" * {}:{}\n", axis.name, valuesComment(axis));
@@ -63,14 +56,12 @@ std::string comment(const Table& table, const std::string& name, bool amplitude)
 std::string tableToAnisotropicCHeader(const Table& table, const std::string& name) {
   if (table.isIsotropic())
     throw std::invalid_argument("needs an anisotropic table (alpha, lambda, theta, phi)");
-  const std::vector<std::string>& c = table.info().channels;
-  const bool amplitude =
-      std::find(c.begin(), c.end(), "norm") != c.end() && std::find(c.begin(), c.end(), "fresnel") != c.end();
-  Packing packing{MatrixStorage::kM,
-                  Divisor::kThirdColumn,
-                  {{"matrix", {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22"}},
-                   {"amplitude", {"norm", "fresnel"}}}};
-  if (!amplitude) packing.textures.pop_back();
+  const std::vector<std::string> channels = amplitudesOf(table.info());
+  Packing packing{
+      MatrixStorage::kM,
+      Divisor::kThirdColumn,
+      {{"matrix", {"m00", "m01", "m02", "m10", "m11", "m12", "m20", "m21", "m22"}}, {"amplitude", channels}}};
+  if (channels.empty()) packing.textures.pop_back();
   const PackedTable packed = pack(table, packing, Precision::kFloat);
   // alone it may be a word of the language, as "float"
   const std::string id = isCWord(identifier(name)) ? identifier(name) + "_table" : identifier(name);
@@ -109,14 +100,15 @@ std::string tableToAnisotropicCHeader(const Table& table, const std::string& nam
   };
   for (std::size_t i = 0; i < table.nodeCount(); ++i) {
     matrices += open(i) + row(packed.images[0], i) + close(i);
-    if (amplitude) amplitudes += open(i) + row(packed.images[1], i) + close(i);
+    if (!channels.empty()) amplitudes += open(i) + row(packed.images[1], i) + close(i);
   }
   const std::string guard = upper(id) + "_H";
-  std::string out = comment(table, id, amplitude);
+  std::string out = comment(table, id, channels);
   out += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
   out += fmt::format("static const float {}{}[9] = {{\n{}}};\n", id, sizes, matrices);
-  if (amplitude)
-    out += fmt::format("\nstatic const float {}_amplitude{}[2] = {{\n{}}};\n", id, sizes, amplitudes);
+  if (!channels.empty())
+    out += fmt::format("\nstatic const float {}_amplitude{}[{}] = {{\n{}}};\n", id, sizes, channels.size(),
+                       amplitudes);
   out += fmt::format("\n#endif /* {} */\n", guard);
   return out + fmt::format("/* {} */\n", metadataLine(packed, "arrays of C, in this order"));
 }

@@ -9,7 +9,8 @@ namespace ltcfit {
 
 /// Text of a header with float arrays, alpha slowest, phi fastest:
 ///   NAME[alpha][lambda][theta][phi][9]            M row-major, unit third column,
-///   NAME_amplitude[alpha][lambda][theta][phi][2]  (norm, Fresnel), where the table has these channels.
+///   NAME_amplitude[alpha][lambda][theta][phi][2]  (norm, Fresnel); [1] of a table that has one of these
+///                                                 channels, none without.
 /// The demo of 2022 and its users call the first `anisomats`. `name` becomes an identifier: other characters
 /// are turned into '_'. Throws std::invalid_argument for an isotropic table or one without an inverse
 /// somewhere.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "export/c_text.h"
@@ -12,7 +11,7 @@
 namespace ltcfit {
 namespace {
 
-std::string comment(const Table& table, const std::string& name, bool amplitude) {
+std::string comment(const Table& table, const std::string& name, const std::vector<std::string>& amplitudes) {
   const TableInfo& info = table.info();
   const Axis& y = info.axes[0];
   const Axis& x = info.axes[1];
@@ -38,15 +37,7 @@ std::string comment(const Table& table, const std::string& name, bool amplitude)
       " *   it is. Frame: z = normal, the view vector in the x-z plane with x >= 0, so that the lobe leans "
       "to -x.\n",
       originText(info.provenance), x.size(), y.size(), axisFormula(x), axisFormula(y), name);
-  if (amplitude) {
-    out += fmt::format(
-        " *\n"
-        " * {}_amplitude: (norm, fresnel) a texel: the directional albedo n_D and the Schlick-weighted "
-        "albedo f_D.\n"
-        " *   specular = F0 * norm + (F90 - F0) * fresnel, for Schlick's Fresnel; F90 = 1 where not known "
-        "better.\n",
-        name);
-  }
+  if (!amplitudes.empty()) out += " *\n" + amplitudeComment(name + "_amplitude", amplitudes, " a texel: ");
   out += fmt::format(
       " *\n"
       " * alpha floor: {:.9g} (alpha of the nodes at x = 0). Node values, alpha:{}\n"
@@ -61,26 +52,21 @@ std::string comment(const Table& table, const std::string& name, bool amplitude)
 std::string tableToCHeader(const Table& table, const std::string& prefix) {
   if (!table.isIsotropic())
     throw std::invalid_argument("format h needs an isotropic table (axes theta, alpha)");
-  Packing packing = packing2017();
-  const std::vector<std::string>& c = table.info().channels;
-  const bool amplitude =
-      std::find(c.begin(), c.end(), "norm") != c.end() && std::find(c.begin(), c.end(), "fresnel") != c.end();
-  packing.textures[1].components = {"norm", "fresnel"};
-  if (!amplitude) packing.textures.pop_back();
-  const PackedTable packed = pack(table, packing, Precision::kFloat);
+  const std::vector<std::string> amplitudes = amplitudesOf(table.info());
+  const PackedTable packed = pack(table, packingLean(table.info()), Precision::kFloat);
   const std::string name = identifier(prefix);
   const std::string guard = upper(name) + "_H";
   const std::size_t n = table.nodeCount();
 
-  std::string out = comment(table, name, amplitude);
+  std::string out = comment(table, name, amplitudes);
   out += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
   out += fmt::format("enum {{ {0}_width = {1}, {0}_height = {2} }};\n\n", name, packed.images[0].width,
                      packed.images[0].height);
   out += fmt::format("static const float {}_matrix[{}][4] = {{\n{}}};\n", name, n,
                      bracedRows(packed.images[0].values, 4));
-  if (amplitude) {
-    out += fmt::format("\nstatic const float {}_amplitude[{}][2] = {{\n{}}};\n", name, n,
-                       bracedRows(packed.images[1].values, 2));
+  if (!amplitudes.empty()) {
+    out += fmt::format("\nstatic const float {}_amplitude[{}][{}] = {{\n{}}};\n", name, n, amplitudes.size(),
+                       bracedRows(packed.images[1].values, amplitudes.size()));
   }
   out += fmt::format("\n#endif /* {} */\n", guard);
   return out + fmt::format("/* {} */\n", metadataLine(packed, "arrays of C, in this order"));

@@ -95,6 +95,20 @@ std::string axisFormula(const Axis& axis) {
                      evenFormula(axis));
 }
 
+std::string amplitudeComment(const std::string& array, const std::vector<std::string>& channels,
+                             std::string_view joint) {
+  if (channels.size() == 2)
+    return fmt::format(
+        " * {}: (norm, fresnel){}the directional albedo n_D and the Schlick-weighted albedo f_D.\n"
+        " *   specular = F0 * norm + (F90 - F0) * fresnel, for Schlick's Fresnel; F90 = 1 where not known "
+        "better.\n",
+        array, joint);
+  const bool norm = channels[0] == "norm";
+  return fmt::format(" * {}: {}{}the {}. The table has no {}.\n", array, channels[0], joint,
+                     norm ? "directional albedo n_D" : "Schlick-weighted albedo f_D",
+                     norm ? "fresnel" : "norm");
+}
+
 std::string valuesComment(const Axis& axis) {
   std::string out;
   for (std::size_t i = 0; i < axis.values.size(); ++i) {

@@ -21,6 +21,10 @@ std::string commentSafe(std::string text);
 std::string originText(const Provenance& provenance);
 /// How a shader gets the texture coordinate of an axis, 0..1 from the first node to the last.
 std::string axisFormula(const Axis& axis);
+/// What an array of amplitudes holds, as lines of a comment: of `channels`, "norm", "fresnel" or both, which
+/// `joint` (", ") joins to their meaning.
+std::string amplitudeComment(const std::string& array, const std::vector<std::string>& channels,
+                             std::string_view joint);
 /// The values of the nodes, eight a line, each line starting with " *".
 std::string valuesComment(const Axis& axis);
 

@@ -36,17 +36,19 @@ struct Format {
   std::size_t components;
   Precision precision;
 };
-constexpr std::array<Format, 4> kFormats{{{113, 10, 4, Precision::kHalf},
+constexpr std::array<Format, 6> kFormats{{{113, 10, 4, Precision::kHalf},
                                           {116, 2, 4, Precision::kFloat},
                                           {112, 34, 2, Precision::kHalf},
-                                          {115, 16, 2, Precision::kFloat}}};
+                                          {115, 16, 2, Precision::kFloat},
+                                          {111, 54, 1, Precision::kHalf},
+                                          {114, 41, 1, Precision::kFloat}}};
 
 // Throws for a format that there is none of.
 const Format& formatOf(const Image& image) {
   for (const Format& f : kFormats) {
     if (f.components == image.components && f.precision == image.precision) return f;
   }
-  throw std::invalid_argument("DDS: need 2 or 4 components a texel");
+  throw std::invalid_argument("DDS: need 1, 2 or 4 components a texel");
 }
 
 std::string headerOf(const Image& image, DdsHeader header, std::size_t levels) {
@@ -106,7 +108,7 @@ ParsedHeader parseHeader(std::string_view bytes, const std::string& name) {
     known = true;
   }
   if (!known) {
-    throw InputError(fmt::format("{}: DDS {} {} is not known (RGBA or RG, half or float)", name,
+    throw InputError(fmt::format("{}: DDS {} {} is not known (RGBA, RG or R, half or float)", name,
                                  dx10 ? "DXGI format" : "FourCC", code));
   }
   if ((caps2 & kCubeMap) != 0) throw InputError(name + ": DDS cube map; need a plain texture");

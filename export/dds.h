@@ -14,7 +14,7 @@ enum class DdsHeader {
   kDx10,    ///< 148 bytes, DXGI format; arrays
 };
 
-/// One 2D texture, array (kDx10 only) or volume of 2 or 4 components, no mip maps. Throws
+/// One 2D texture, array (kDx10 only) or volume of 1, 2 or 4 components, no mip maps. Throws
 /// std::invalid_argument for what the header cannot say.
 std::string imageToDds(const Image& image, DdsHeader header);
 

@@ -12,6 +12,7 @@
 #include "export/js_module.h"
 #include "export/json_table.h"
 #include "export/shader_arrays.h"
+#include "export/shader_lookup.h"
 
 namespace ltcfit {
 namespace {
@@ -23,7 +24,12 @@ bool isTextureContainer(std::string_view format) {
 
 Packing packingFor(const Table& table, std::string_view format, Layout layout) {
   if (layout == Layout::kPacked) return table.isIsotropic() ? packing2017() : packingOfRows();
+  if (layout == Layout::kLean) return packingLean(table.info());
   return packingOfChannels(table.info(), isTextureContainer(format) ? 4 : table.channelCount());
+}
+
+bool isLookup(const FormatInfo& format) {
+  return format.name == "glsl-lookup" || format.name == "hlsl-lookup";
 }
 
 // What the shaders that we ship (render/shaders) take for granted about the nodes.
@@ -41,14 +47,12 @@ constexpr std::size_t kSafeDepth = 256;
 
 void addWarnings(const Table& table, const FormatInfo& format, const FormatOptions& options,
                  ExportResult& result) {
-  const bool packed = options.layout == Layout::kPacked && format.name != "json";
-  if (packed && !isForOurShaders(table)) {
-    result.warnings.push_back(table.isIsotropic() ? "ltc.glsl and ltc.hlsl look up sqrt(alpha) and sqrt(1 - "
-                                                    "N.V); this table has other axes (its description "
-                                                    "says which)"
-                                                  : "ltc.glsl and ltc.hlsl look up alpha, lambda, theta and "
-                                                    "phi linearly; this table has other axes (its "
-                                                    "description says which)");
+  const bool packed = options.layout != Layout::kChannels && format.name != "json";
+  if (packed && !isLookup(format) && !isForOurShaders(table)) {
+    result.warnings.push_back(fmt::format(
+        "ltc.glsl and ltc.hlsl look up {} from end to end; this table has other axes: --format "
+        "glsl-lookup or hlsl-lookup writes its own look-up",
+        table.isIsotropic() ? "sqrt(alpha) and sqrt(1 - N.V)" : "alpha, lambda, theta and phi, linearly"));
   }
   const std::size_t depth = 3 * table.info().axes[0].size() * table.info().axes[1].size();
   if (packed && !table.isIsotropic() && depth > kSafeDepth && (format.name == "dds" || format.name == "ktx2"))
@@ -58,10 +62,29 @@ void addWarnings(const Table& table, const FormatInfo& format, const FormatOptio
 
 std::string standardPrefix(const Table& table, std::string_view format, const std::string& name) {
   if (format == "h" && !table.isIsotropic()) return "anisomats";
+  if (format == "glsl-lookup" || format == "hlsl-lookup") return "ltcScene";
   return std::filesystem::path(name).stem().string();
 }
 
 }  // namespace
+
+std::string_view layoutName(Layout layout) {
+  switch (layout) {
+    case Layout::kPacked:
+      return "packed";
+    case Layout::kChannels:
+      return "channels";
+    case Layout::kLean:
+      break;
+  }
+  return "lean";
+}
+
+Layout layoutFromName(std::string_view name) {
+  for (Layout layout : {Layout::kPacked, Layout::kChannels, Layout::kLean})
+    if (name == layoutName(layout)) return layout;
+  throw std::invalid_argument(fmt::format("unknown layout '{}' (packed, channels or lean)", name));
+}
 
 const std::vector<FormatInfo>& formats() {
   static const std::vector<FormatInfo> list{
@@ -69,6 +92,10 @@ const std::vector<FormatInfo>& formats() {
        false, true},
       {"hlsl", ".hlsl", "HLSL include: static const float4 arrays", false, false, true},
       {"glsl", ".glsl", "GLSL include: const vec4 arrays", false, false, true},
+      {"glsl-lookup", ".glsl",
+       "GLSL include: the look-up of this table alone, in the textures of --layout lean", false, false, true,
+       Layout::kLean},
+      {"hlsl-lookup", ".hlsl", "HLSL include: the same", false, false, true, Layout::kLean},
       {"dds", ".dds", "DDS: 2D array of 2 layers, or volume of the 3 rows of M stacked in depth", true, true,
        false},
       {"ktx2", ".ktx2", "KTX2: the same, zstd supercompressed, metadata as key/value", true, true, false},
@@ -109,6 +136,11 @@ ExportResult exportTable(const Table& table, const FormatInfo& format, const For
   if (format.name == "h") {
     result.files = {{name, table.isIsotropic() ? tableToCHeader(table, prefix)
                                                : tableToAnisotropicCHeader(table, prefix)}};
+    return result;
+  }
+  if (isLookup(format)) {
+    const auto language = format.name == "glsl-lookup" ? ShadingLanguage::kGlsl : ShadingLanguage::kHlsl;
+    result.files = {{name, makeShaderLookup(table.info(), language, prefix).source}};
     return result;
   }
   PackedTable packed = pack(table, packingFor(table, format.name, options.layout), options.precision);

@@ -14,6 +14,7 @@ namespace ltcfit {
 enum class Layout {
   kPacked,    ///< as shaders read them: packing2017 or packingOfRows
   kChannels,  ///< every channel as the table stores it
+  kLean,      ///< packingLean: as shaders read it, without what the table lacks
 };
 
 struct FormatOptions {
@@ -30,10 +31,14 @@ struct FormatInfo {
   std::string_view extension;
   std::string_view contents;  ///< for `ltcfit export --list`
   bool half = false;          ///< can hold halves
-  bool layouts = false;       ///< can hold either layout
+  bool layouts = false;       ///< can hold every layout
   bool prefix = false;        ///< holds identifiers
   Layout standard = Layout::kPacked;
 };
+
+/// "packed", "channels", "lean"; back: std::invalid_argument for others.
+std::string_view layoutName(Layout layout);
+Layout layoutFromName(std::string_view name);
 
 const std::vector<FormatInfo>& formats();
 

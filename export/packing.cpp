@@ -114,6 +114,16 @@ void checkPlaces(const Table& table, const std::vector<Eigen::Matrix3d>& matrice
   }
 }
 
+void needRoomForSpheres(const TableInfo& info) {
+  for (const Axis& axis : info.axes) {
+    if (axis.size() == 1)
+      fail(
+          fmt::format("axis '{}' has one node: the layout of 2017 also holds a table of spheres, which needs "
+                      "two along each; the layout lean does not",
+                      axis.name));
+  }
+}
+
 double sphereAt(const Image& image, std::size_t texel) {
   const auto at = [](std::size_t i, std::size_t n) {
     return static_cast<double>(i) / static_cast<double>(n - 1);
@@ -179,6 +189,30 @@ Packing packingOfRows() {
            {"row2", {"m20", "m21", "m22", "0"}}}};
 }
 
+Packing packingLean(const TableInfo& info) {
+  if (info.axes.size() == 4) return packingOfRows();
+  Packing packing = packing2017();
+  packing.textures[1].components = amplitudesOf(info);
+  if (packing.textures[1].components.empty()) packing.textures.pop_back();
+  return packing;
+}
+
+std::vector<std::string> amplitudesOf(const TableInfo& info) {
+  std::vector<std::string> out;
+  for (const char* const channel : {"norm", "fresnel"})
+    if (holds(info, channel)) out.emplace_back(channel);
+  return out;
+}
+
+LeanSize leanSize(const TableInfo& info, Precision precision) {
+  const Packing packing = packingLean(info);
+  std::size_t numbers = 0;
+  for (const TextureSpec& texture : packing.textures) numbers += texture.components.size();
+  for (const Axis& axis : info.axes) numbers *= axis.size();
+  return {numbers * (precision == Precision::kHalf ? 2 : 4),
+          info.axes.size() == 4 ? 1 : packing.textures.size()};
+}
+
 Packing packingOfChannels(const TableInfo& info, std::size_t components) {
   Packing packing{info.stores, divisorOf(info.normalization), {}};
   for (std::size_t c = 0; c < info.channels.size(); c += components) {
@@ -203,6 +237,7 @@ PackedTable pack(const Table& table, const Packing& packing, Precision precision
       if ((component == "norm" || component == "fresnel") && !holds(table.info(), component))
         component.assign(1, '0');
       if (component == "sphere" && !table.isIsotropic()) component.assign(1, '0');
+      if (component == "sphere") needRoomForSpheres(table.info());
     }
   }
   std::vector<Eigen::Matrix3d> matrices = packedMatrices(table, packing);

@@ -50,6 +50,20 @@ Packing packing2017();
 /// So norm and Fresnel cost no fetch of their own.
 Packing packingOfRows();
 
+/// What the table has and nothing else. Isotropic: the matrix of packing2017, and a texture of norm and
+/// fresnel, or the one of them that there is; none where there is neither. Anisotropic: packingOfRows.
+Packing packingLean(const TableInfo& info);
+
+/// Of "norm" and "fresnel" those that the table has, in this order.
+std::vector<std::string> amplitudesOf(const TableInfo& info);
+
+/// What a table takes in packingLean.
+struct LeanSize {
+  std::size_t bytes = 0;     ///< of all texels
+  std::size_t textures = 0;  ///< that a shader binds: the three rows of M lie in one volume
+};
+LeanSize leanSize(const TableInfo& info, Precision precision);
+
 /// Every channel as the table stores it, in order, so many to a texture (the last one filled up with "0"):
 /// nothing is lost in float.
 Packing packingOfChannels(const TableInfo& info, std::size_t components);
@@ -74,7 +88,8 @@ struct PackedTable {
 /// by the smallest power of two that keeps its diagonal away from subnormal halves. For norm and Fresnel of a
 /// table without them, and for the sphere table of an anisotropic one, "0" is written. Throws
 /// std::invalid_argument naming the node: an entry of a matrix has no place in the packing, there is no
-/// inverse, a number does not fit.
+/// inverse, a number does not fit; naming the axis: the packing has a sphere table, for which an axis of one
+/// node has no room.
 PackedTable pack(const Table& table, const Packing& packing, Precision precision);
 
 /// The table that is in the textures. Inverse of pack for float; for half the rounded numbers. Throws

@@ -68,8 +68,14 @@ bool isAxis(const Axis& axis, AxisMap map, std::size_t nodes, double high) {
 std::string describeAxes(const Table& table) {
   std::string text;
   for (const Axis& axis : table.info().axes) {
-    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", axis.size(), axis.name,
-                        axis.map == AxisMap::kNone ? "" : fmt::format(" ({})", axisMapName(axis.map)));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", axis.size(), axis.name);
+    if (axis.map == AxisMap::kNone) continue;
+    const double full = axis.unit == "rad" ? kHalfPi : 1.0;
+    text += fmt::format(" ({}{}{})", axisMapName(axis.map),
+                        axis.spans(axis.map, full) || axis.warp != AxisWarp{}
+                            ? ""
+                            : fmt::format(", {:.4g} to {:.4g}", axis.low, axis.high),
+                        axis.warp == AxisWarp{} ? "" : ", warped");
   }
   return text;
 }

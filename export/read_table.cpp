@@ -60,42 +60,6 @@ std::optional<PackedTable> readSidecar(const std::string& path, std::string_view
   return packed;
 }
 
-// The file of each texture: the one given, and those that its metadata name beside it.
-std::vector<Image> readFiles(const PackedTable& packed, const std::string& bytes, const std::string& path) {
-  std::vector<Image> images;
-  for (const auto& [name, sum] : packed.files) {
-    if (sum == checksum(bytes)) {
-      images.push_back(parseDds(bytes, path));
-      continue;
-    }
-    const std::string file = (std::filesystem::path(path).parent_path() / name).string();
-    if (!std::filesystem::is_regular_file(file))
-      throw InputError(fmt::format("{}: not there, and {} is one of several files", file, path));
-    const std::string other = readFile(file, kMaxTable);
-    if (std::filesystem::path(name) == std::filesystem::path(path).filename())
-      throw InputError(
-          fmt::format("{}: holds what {} calls another file: swapped or renamed", path, sidecarPath(path)));
-    if (checksum(other) != sum)
-      throw InputError(
-          fmt::format("{}: does not belong to {} (its checksum is another one than described)", file, path));
-    images.push_back(parseDds(other, file));
-  }
-  return images;
-}
-
-std::vector<Image> layersOf(const Image& image) {
-  std::vector<Image> layers;
-  const std::size_t count = image.width * image.height * image.depth * image.components;
-  for (std::size_t l = 0; l < image.layers; ++l) {
-    Image layer = image;
-    layer.layers = 1;
-    const auto begin = image.values.begin() + static_cast<std::ptrdiff_t>(l * count);
-    layer.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-    layers.push_back(std::move(layer));
-  }
-  return layers;
-}
-
 Image imageOfArray(const FloatArray& array, const std::string& name) {
   if (array.shape.size() != 3) {
     throw InputError(
@@ -117,6 +81,42 @@ Image readImage(const std::string& bytes, const std::string& path) {
   if (isKtx2(bytes)) return parseKtx2(bytes, path).image;
   if (isDds(bytes)) return parseDds(bytes, path);
   throw InputError(path + ": neither .npy, DDS nor KTX2");
+}
+
+// The file of each texture: the one given, and those that its metadata name beside it.
+std::vector<Image> readFiles(const PackedTable& packed, const std::string& bytes, const std::string& path) {
+  std::vector<Image> images;
+  for (const auto& [name, sum] : packed.files) {
+    if (sum == checksum(bytes)) {
+      images.push_back(readImage(bytes, path));
+      continue;
+    }
+    const std::string file = (std::filesystem::path(path).parent_path() / name).string();
+    if (!std::filesystem::is_regular_file(file))
+      throw InputError(fmt::format("{}: not there, and {} is one of several files", file, path));
+    const std::string other = readFile(file, kMaxTable);
+    if (std::filesystem::path(name) == std::filesystem::path(path).filename())
+      throw InputError(
+          fmt::format("{}: holds what {} calls another file: swapped or renamed", path, sidecarPath(path)));
+    if (checksum(other) != sum)
+      throw InputError(
+          fmt::format("{}: does not belong to {} (its checksum is another one than described)", file, path));
+    images.push_back(readImage(other, file));
+  }
+  return images;
+}
+
+std::vector<Image> layersOf(const Image& image) {
+  std::vector<Image> layers;
+  const std::size_t count = image.width * image.height * image.depth * image.components;
+  for (std::size_t l = 0; l < image.layers; ++l) {
+    Image layer = image;
+    layer.layers = 1;
+    const auto begin = image.values.begin() + static_cast<std::ptrdiff_t>(l * count);
+    layer.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    layers.push_back(std::move(layer));
+  }
+  return layers;
 }
 
 // The layout of 2017, whose second texture is the second layer or another file.
@@ -143,10 +143,18 @@ TableFile readTexture(const std::string& bytes, const std::string& path) {
       if (key == kMetadataKey)
         return fileOf(packedFromStack(packedFromMetadata(value, path), file.image, path), "KTX2", path);
     }
+    if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
+      packed->images = readFiles(*packed, bytes, path);
+      return fileOf(std::move(*packed), "KTX2", path);
+    }
     return fileOf(packedWithoutMetadata(file.image, path), "KTX2", path);
   }
   std::optional<PackedTable> packed = readSidecar(path, bytes);
   if (isNpy(bytes)) {
+    if (packed && packed->files.size() > 1) {
+      packed->images = readFiles(*packed, bytes, path);
+      return fileOf(std::move(*packed), ".npy", path);
+    }
     const FloatArray array = parseNpy(bytes, path);
     if (packed) return fileOf(packedFromNumbers(std::move(*packed), array.values, path), ".npy", path);
     if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt};
@@ -217,11 +225,15 @@ TableFile readTableFile(const std::string& path) {
   if (looksLikeText(bytes)) {
     if (std::optional<Table> table = tableFromSource(bytes, path))
       return {std::move(*table), "source code", std::nullopt};
-  } else if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
+  }
+  // a few numbers may have no zero byte
+  if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
     const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
     return fileOf(packedFromNumbers(std::move(*packed), numbers, path), "binary", path);
-  } else if (std::optional<Table> table = tableFromEngineBinary(bytes, path)) {
-    return {std::move(*table), "binary", std::nullopt};
+  }
+  if (!looksLikeText(bytes)) {
+    if (std::optional<Table> table = tableFromEngineBinary(bytes, path))
+      return {std::move(*table), "binary", std::nullopt};
   }
   throw InputError(path +
                    ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "

@@ -102,10 +102,17 @@ Table anisotropicTable(TextArray& matrices, const std::vector<TextArray>& arrays
 
 // The arrays that a file of ours describes itself: as many numbers as the textures have, in their order.
 Table describedTable(PackedTable packed, const std::vector<TextArray>& arrays, const std::string& name) {
+  std::size_t nodes = 1;
+  for (const Axis& axis : packed.info.axes) nodes *= axis.size();
+  const std::vector<TextureSpec>& textures = packed.packing.textures;
+  std::size_t found = 0;
   std::vector<float> numbers;
   for (const TextArray& array : arrays) {
-    // matrices and amplitudes; whatever else a file declares is shorter
-    if (array.values.size() >= 8) numbers.insert(numbers.end(), array.values.begin(), array.values.end());
+    // what else a file declares, or writes in its comment, is not as long
+    if (found == textures.size() || array.values.size() != nodes * textures[found].components.size())
+      continue;
+    numbers.insert(numbers.end(), array.values.begin(), array.values.end());
+    ++found;
   }
   return tableFromPacked(packedFromNumbers(std::move(packed), numbers, name), name);
 }

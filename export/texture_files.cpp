@@ -17,6 +17,7 @@ namespace ltcfit {
 namespace {
 
 constexpr std::string_view kComponentNames = "RGBA";
+constexpr const char* kWriter = "ltcfit " LTCFIT_VERSION;
 // Above every table (ltc/table.cpp), and below what overflows a product of sizes.
 constexpr std::size_t kMaxNodes = std::size_t{1} << 28;
 constexpr std::size_t kMaxComponents = 16;
@@ -38,8 +39,29 @@ std::string exrChannel(const Packing& packing, std::size_t texture, std::size_t 
   return texture == 0 ? letter : packing.textures[texture].name + "." + letter;
 }
 
+// An anisotropic table's textures are volumes, if of one slice only.
+bool isVolume(const PackedTable& packed) {
+  return packed.info.axes.size() == 4;
+}
+
+constexpr const char* kOneFileEach = "one file a texture";
+
+bool haveEqualComponents(const std::vector<Image>& images) {
+  return std::all_of(images.begin(), images.end(),
+                     [&](const Image& image) { return image.components == images[0].components; });
+}
+
+// "x.dds": "x-1.dds", "x-2.dds", ...
+std::vector<std::string> numberedNames(const std::string& name, std::size_t count) {
+  const std::filesystem::path path(name);
+  std::vector<std::string> names;
+  for (std::size_t t = 0; t < count; ++t)
+    names.push_back(fmt::format("{}-{}{}", path.stem().string(), t + 1, path.extension().string()));
+  return names;
+}
+
 std::string stackText(const PackedTable& packed) {
-  if (packed.images[0].depth == 1) return "one texture a layer";
+  if (!isVolume(packed)) return "one texture a layer";
   return fmt::format("textures stacked in depth, {} slices each", packed.images[0].depth);
 }
 
@@ -71,7 +93,7 @@ Image stackedImage(const PackedTable& packed) {
     const Image& image = packed.images[t];
     if (image.components != stack.components) throw std::invalid_argument("textures differ in components");
     stack.values.insert(stack.values.end(), image.values.begin(), image.values.end());
-    (stack.depth > 1 ? stack.depth : stack.layers) += image.depth;
+    (isVolume(packed) ? stack.depth : stack.layers) += image.depth;
   }
   return stack;
 }
@@ -97,24 +119,30 @@ std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed
 
 std::vector<ExportFile> toKtx2Files(const PackedTable& packed, Ktx2Compression compression,
                                     const std::string& name) {
+  if (!haveEqualComponents(packed.images)) {
+    const std::vector<std::string> names = numberedNames(name, packed.images.size());
+    std::vector<ExportFile> files;
+    for (std::size_t t = 0; t < names.size(); ++t)
+      files.push_back({names[t], imageToKtx2({packed.images[t], {{"KTXwriter", kWriter}}}, compression)});
+    addSidecars(files, packed, kOneFileEach);
+    return files;
+  }
   Ktx2File file;
   file.image = stackedImage(packed);
-  file.keyValues = {{"KTXwriter", "ltcfit " LTCFIT_VERSION},
-                    {kMetadataKey, textureMetadata(packed, stackText(packed))}};
+  file.keyValues = {{"KTXwriter", kWriter}, {kMetadataKey, textureMetadata(packed, stackText(packed))}};
   return {{name, imageToKtx2(file, compression)}};
 }
 
 std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header, const std::string& name) {
-  const Image stack = stackedImage(packed);
-  if (stack.layers == 1 || header == DdsHeader::kDx10) {
-    std::vector<ExportFile> files{{name, imageToDds(stack, header)}};
-    addSidecars(files, packed, stackText(packed));
-    return files;
+  if (haveEqualComponents(packed.images)) {
+    const Image stack = stackedImage(packed);
+    if (stack.layers == 1 || header == DdsHeader::kDx10) {
+      std::vector<ExportFile> files{{name, imageToDds(stack, header)}};
+      addSidecars(files, packed, stackText(packed));
+      return files;
+    }
   }
-  const std::filesystem::path path(name);
-  std::vector<std::string> names;
-  for (std::size_t t = 0; t < packed.images.size(); ++t)
-    names.push_back(fmt::format("{}-{}{}", path.stem().string(), t + 1, path.extension().string()));
+  const std::vector<std::string> names = numberedNames(name, packed.images.size());
   return toDdsFiles(std::move(packed), header, names);
 }
 
@@ -123,15 +151,16 @@ std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header,
   std::vector<ExportFile> files;
   for (std::size_t t = 0; t < packed.images.size(); ++t)
     files.push_back({names[t], imageToDds(packed.images[t], header)});
-  addSidecars(files, packed, "one file a texture");
+  addSidecars(files, packed, kOneFileEach);
   return files;
 }
 
 std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string& name) {
   ExrFile file;
   const Image& first = packed.images[0];
-  file.width = first.depth == 1 ? first.width : first.width * first.height;
-  file.height = first.depth == 1 ? first.height : first.depth;
+  const bool volume = isVolume(packed);
+  file.width = volume ? first.width * first.height : first.width;
+  file.height = volume ? first.depth : first.height;
   file.precision = packed.precision;
   for (std::size_t t = 0; t < packed.images.size(); ++t) {
     const Image& image = packed.images[t];
@@ -143,7 +172,6 @@ std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string&
     }
   }
   const TableInfo& info = packed.info;
-  const bool volume = first.depth > 1;
   const std::string layout =
       volume
           ? fmt::format("x = phi + {} theta, y = lambda + {} alpha (nodes)", first.width, info.axes[1].size())
@@ -163,9 +191,22 @@ std::vector<ExportFile> toExrFiles(const PackedTable& packed, const std::string&
 }
 
 std::vector<ExportFile> toNpyFiles(const PackedTable& packed, const std::string& name) {
+  std::vector<std::size_t> nodes;
+  for (const Axis& axis : packed.info.axes) nodes.push_back(axis.size());
+  if (!haveEqualComponents(packed.images)) {
+    const std::vector<std::string> names = numberedNames(name, packed.images.size());
+    std::vector<ExportFile> files;
+    for (std::size_t t = 0; t < names.size(); ++t) {
+      FloatArray array{nodes, packed.images[t].values};
+      array.shape.push_back(packed.images[t].components);
+      files.push_back({names[t], arrayToNpy(array, packed.precision)});
+    }
+    addSidecars(files, packed, kOneFileEach);
+    return files;
+  }
   FloatArray array;
   if (packed.images.size() > 1) array.shape.push_back(packed.images.size());
-  for (const Axis& axis : packed.info.axes) array.shape.push_back(axis.size());
+  for (const std::size_t n : nodes) array.shape.push_back(n);
   array.shape.push_back(packed.images[0].components);
   for (const Image& image : packed.images)
     array.values.insert(array.values.end(), image.values.begin(), image.values.end());
@@ -221,7 +262,7 @@ PackedTable packedFromExr(std::string_view bytes, const std::string& name) {
       // each is read from a channel of its own: a few bytes of names must not ask for an image each
       components += image.components;
       if (components > file.names.size()) throw std::invalid_argument("EXR: fewer channels than components");
-      const bool volume = image.depth > 1;
+      const bool volume = isVolume(packed);
       if (file.width != (volume ? image.width * image.height : image.width) ||
           file.height != (volume ? image.depth : image.height) ||
           (packed.packing.textures.size() > 1 && image.components > kComponentNames.size())) {

@@ -26,11 +26,13 @@ Image stackedImage(const PackedTable& packed);
 std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed);
 
 /// Each returns the file `name`, and where the format has no place for metadata a sidecar for every file,
-/// with their checksums. Exceptions of the containers pass through.
+/// with their checksums. KTX2, DDS and NumPy files hold textures of as many components each; where these
+/// differ "x.dds" becomes "x-1.dds", "x-2.dds", each with a sidecar. Exceptions of the containers pass
+/// through.
 std::vector<ExportFile> toKtx2Files(const PackedTable& packed, Ktx2Compression compression,
                                     const std::string& name);
-/// kDx10: one file, an array or a volume. kLegacy, which has no arrays: "x.dds" becomes "x-1.dds", "x-2.dds",
-/// ... for an isotropic table.
+/// kDx10: one file, an array or a volume. kLegacy, which has no arrays: a file a texture for an isotropic
+/// table.
 std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header, const std::string& name);
 /// One texture each, under the names told.
 std::vector<ExportFile> toDdsFiles(PackedTable packed, DdsHeader header,

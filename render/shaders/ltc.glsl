@@ -60,13 +60,39 @@ vec4 ltcRow(sampler3D table, vec2 uv, float w, float next, float f) {
   return mix(textureLod(table, vec3(uv, w), 0.0), textureLod(table, vec3(uv, w + next), 0.0), f);
 }
 
+// The entry of M's interpolated rows, whose last components are norm and fresnel. The table knows views in the
+// first quadrant and alphaX >= alphaY. With F the mirrors, `flip`, and P the swap of x and y, if `swapped`, that
+// lead there, the matrix asked for is F P M P F: the factors on the right change no lobe, but keep det M > 0, so
+// that the winding of lights stays (KT et al. 2022, eq. 13 and 15: on the left only).
+LtcEntry ltcEntryOfRows(vec4 row0, vec4 row1, vec4 row2, bool swapped, vec3 flip) {
+  vec3 m0 = swapped ? vec3(row1.y, row1.x, row1.z) : vec3(row0);
+  vec3 m1 = swapped ? vec3(row0.y, row0.x, row0.z) : vec3(row1);
+  vec3 m2 = swapped ? vec3(row2.y, row2.x, row2.z) : vec3(row2);
+  m0 *= flip * flip.x;
+  m1 *= flip * flip.y;
+  m2 *= flip;
+
+  // The columns of det(M) times the inverse, brought to a largest entry of 1: no determinant to divide by,
+  // which for alpha = 1e-4 is 1e-8, and no entry that overflows when it meets a vertex. Between nodes there
+  // are matrices with det M < 0 (lambda below 0.01): there the sign belongs to the inverse, and y is flipped,
+  // which is the same lobe with the winding of all others.
+  vec3 c0 = cross(m1, m2);
+  vec3 c1 = cross(m2, m0);
+  vec3 c2 = cross(m0, m1);
+  vec3 largest = max(max(abs(c0), abs(c1)), abs(c2));
+  vec3 scale = vec3(1.0) / max(max(max(largest.x, largest.y), largest.z), 1e-30);
+  if (dot(m0, c0) < 0.0) scale *= vec3(-1.0, 1.0, -1.0);
+  LtcEntry entry;
+  entry.inverse = mat3(c0 * scale, c1 * scale, c2 * scale);
+  entry.norm = row0.w;
+  entry.fresnel = row1.w;
+  return entry;
+}
+
 // `nodes` = (nAlpha, nLambda), which the size of the texture does not tell: ivec2(8) for the default table.
 // alphaX, alphaY: GGX's alpha along x and y, not its root, either may be the larger. `view` in the frame
 // ltcFrame(normal, tangent), of any length; below the horizon it counts as at it.
 LtcEntry ltcFetchAnisotropic(sampler3D table, ivec2 nodes, float alphaX, float alphaY, vec3 view) {
-  // The table knows views in the first quadrant and alphaX >= alphaY. With F the mirrors and P the swap of x
-  // and y that lead there, the matrix asked for is F P M P F: the factors on the right change no lobe, but
-  // keep det M > 0, so that the winding of lights stays (KT et al. 2022, eq. 13 and 15: on the left only).
   vec3 flip = vec3(view.x < 0.0 ? -1.0 : 1.0, view.y < 0.0 ? -1.0 : 1.0, 1.0);
   bool swapped = alphaY > alphaX;
   vec2 across = swapped ? abs(vec2(view.y, view.x)) : abs(vec2(view.x, view.y));
@@ -94,29 +120,7 @@ LtcEntry ltcFetchAnisotropic(sampler3D table, ivec2 nodes, float alphaX, float a
   vec4 row0 = ltcRow(table, uv, w, next, a - a0);
   vec4 row1 = ltcRow(table, uv, w + rows * next, next, a - a0);
   vec4 row2 = ltcRow(table, uv, w + 2.0 * rows * next, next, a - a0);
-
-  vec3 m0 = swapped ? vec3(row1.y, row1.x, row1.z) : vec3(row0);
-  vec3 m1 = swapped ? vec3(row0.y, row0.x, row0.z) : vec3(row1);
-  vec3 m2 = swapped ? vec3(row2.y, row2.x, row2.z) : vec3(row2);
-  m0 *= flip * flip.x;
-  m1 *= flip * flip.y;
-  m2 *= flip;
-
-  // The columns of det(M) times the inverse, brought to a largest entry of 1: no determinant to divide by,
-  // which for alpha = 1e-4 is 1e-8, and no entry that overflows when it meets a vertex. Between nodes there
-  // are matrices with det M < 0 (lambda below 0.01): there the sign belongs to the inverse, and y is flipped,
-  // which is the same lobe with the winding of all others.
-  vec3 c0 = cross(m1, m2);
-  vec3 c1 = cross(m2, m0);
-  vec3 c2 = cross(m0, m1);
-  vec3 largest = max(max(abs(c0), abs(c1)), abs(c2));
-  vec3 scale = vec3(1.0) / max(max(max(largest.x, largest.y), largest.z), 1e-30);
-  if (dot(m0, c0) < 0.0) scale *= vec3(-1.0, 1.0, -1.0);
-  LtcEntry entry;
-  entry.inverse = mat3(c0 * scale, c1 * scale, c2 * scale);
-  entry.norm = row0.w;
-  entry.fresnel = row1.w;
-  return entry;
+  return ltcEntryOfRows(row0, row1, row2, swapped, flip);
 }
 
 // The vertex as the clamped cosine sees it: a unit vector, or (0, 0, 0) for one at the shaded point. Lengths

@@ -58,6 +58,30 @@ float4 ltcRow(Texture3D table, SamplerState bilinear, float2 uv, float w, float 
               table.SampleLevel(bilinear, float3(uv, w + next), 0.0), f);
 }
 
+// The entry of M's interpolated rows, whose last components are norm and fresnel, for a view that `flip` mirrors
+// into the first quadrant, and x and y swapped if `swapped`.
+LtcEntry ltcEntryOfRows(float4 row0, float4 row1, float4 row2, bool swapped, float3 flip) {
+  float3 m0 = swapped ? float3(row1.y, row1.x, row1.z) : float3(row0.x, row0.y, row0.z);
+  float3 m1 = swapped ? float3(row0.y, row0.x, row0.z) : float3(row1.x, row1.y, row1.z);
+  float3 m2 = swapped ? float3(row2.y, row2.x, row2.z) : float3(row2.x, row2.y, row2.z);
+  m0 *= flip * flip.x;
+  m1 *= flip * flip.y;
+  m2 *= flip;
+
+  // columns of det(M) times the inverse; where det(M) < 0 of the inverse with y flipped
+  float3 c0 = cross(m1, m2);
+  float3 c1 = cross(m2, m0);
+  float3 c2 = cross(m0, m1);
+  float3 largest = max(max(abs(c0), abs(c1)), abs(c2));
+  float3 scale = float3(1.0, 1.0, 1.0) / max(max(max(largest.x, largest.y), largest.z), 1e-30);
+  if (dot(m0, c0) < 0.0) scale *= float3(-1.0, 1.0, -1.0);
+  LtcEntry entry;
+  entry.inverse = transpose(float3x3(c0 * scale, c1 * scale, c2 * scale));
+  entry.norm = row0.w;
+  entry.fresnel = row1.w;
+  return entry;
+}
+
 // `nodes` = (nAlpha, nLambda), which the size of the texture does not tell: int2(8, 8) for the default table.
 // alphaX, alphaY: GGX's alpha along x and y, not its root, either may be the larger. `view` in the frame
 // ltcFrame(normal, tangent), of any length; below the horizon it counts as at it.
@@ -88,26 +112,7 @@ LtcEntry ltcFetchAnisotropic(Texture3D table, SamplerState bilinear, int2 nodes,
   float4 row0 = ltcRow(table, bilinear, uv, w, next, a - a0);
   float4 row1 = ltcRow(table, bilinear, uv, w + rows * next, next, a - a0);
   float4 row2 = ltcRow(table, bilinear, uv, w + 2.0 * rows * next, next, a - a0);
-
-  float3 m0 = swapped ? float3(row1.y, row1.x, row1.z) : float3(row0.x, row0.y, row0.z);
-  float3 m1 = swapped ? float3(row0.y, row0.x, row0.z) : float3(row1.x, row1.y, row1.z);
-  float3 m2 = swapped ? float3(row2.y, row2.x, row2.z) : float3(row2.x, row2.y, row2.z);
-  m0 *= flip * flip.x;
-  m1 *= flip * flip.y;
-  m2 *= flip;
-
-  // columns of det(M) times the inverse; where det(M) < 0 of the inverse with y flipped
-  float3 c0 = cross(m1, m2);
-  float3 c1 = cross(m2, m0);
-  float3 c2 = cross(m0, m1);
-  float3 largest = max(max(abs(c0), abs(c1)), abs(c2));
-  float3 scale = float3(1.0, 1.0, 1.0) / max(max(max(largest.x, largest.y), largest.z), 1e-30);
-  if (dot(m0, c0) < 0.0) scale *= float3(-1.0, 1.0, -1.0);
-  LtcEntry entry;
-  entry.inverse = transpose(float3x3(c0 * scale, c1 * scale, c2 * scale));
-  entry.norm = row0.w;
-  entry.fresnel = row1.w;
-  return entry;
+  return ltcEntryOfRows(row0, row1, row2, swapped, flip);
 }
 
 // A unit vector; lengths may be from 1e-14 to 1e14.

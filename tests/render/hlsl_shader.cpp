@@ -97,6 +97,8 @@ ShaderEntry to(const LtcEntry& e) {
   return {to(e.inverse), e.norm, e.fresnel};
 }
 
+#include "lookups_hlsl.inc"
+
 }  // namespace
 
 constinit const ltcfit::test::Shader ltcfit::test::kHlsl{
@@ -128,4 +130,5 @@ constinit const ltcfit::test::Shader ltcfit::test::kHlsl{
     ltcArc,
     [](const ShaderEntry& e, Vec3 f0, Vec3 f90) {
       return to(ltcFresnel({from(e.inverse), e.norm, e.fresnel}, from(f0), from(f90)));
-    }};
+    },
+    kLookups};

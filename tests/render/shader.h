@@ -4,6 +4,7 @@
 
 #include <array>
 #include <ostream>
+#include <span>
 #include <vector>
 
 #include "tests/render/texture.h"
@@ -17,6 +18,21 @@ struct ShaderEntry {
   Mat3 inverse;
   float norm;
   float fresnel;
+};
+
+/// What the look-ups of single tables take, each what it needs (export/shader_lookup.h).
+struct LookupArguments {
+  float roughness = 0.0f;
+  float nDotV = 1.0f;
+  float alphaX = 0.0f;
+  float alphaY = 0.0f;
+  Vec3 view{0.0f, 0.0f, 1.0f};
+};
+
+/// The generated look-up of one of tailoredTables (tests/support/tailored.h).
+struct Lookup {
+  const char* name;
+  ShaderEntry (*fetch)(const Texture& matrix, const Texture& amplitude, const LookupArguments& arguments);
 };
 
 struct Shader {
@@ -34,6 +50,7 @@ struct Shader {
   bool (*aboveSurface)(const std::array<Vec3, 4>& vertices);
   float (*arc)(float m2);
   Vec3 (*fresnel)(const ShaderEntry& entry, Vec3 f0, Vec3 f90);
+  std::span<const Lookup> lookups;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Shader& shader) {

@@ -1,8 +1,9 @@
 # The shader snippets compile: GLSL 3.30 and ES 3.00, HLSL to valid SPIR-V; isotropic, anisotropic, by
-# proxy spheres, and all together.
+# proxy spheres, and all together; and the generated look-ups of single tables.
 validator=$1
 spirv_val=$2  # empty: the SPIR-V is not checked
 shaders=$3
+lookups=$4  # NAME.glsl and NAME.hlsl, whole but for the files of $3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -145,4 +146,20 @@ times=2
 glsl "330 core" "$glsl_isotropic $glsl_proxy $glsl_textured" || fail "GLSL 330 core, included twice, does not compile"
 glsl "300 es" "$glsl_isotropic $glsl_proxy $glsl_textured" || fail "GLSL 300 es, included twice, does not compile"
 hlsl "$hlsl_isotropic $hlsl_proxy $hlsl_textured" || fail "HLSL, included twice, does not compile"
+count=0
+for file in "$lookups"/*.glsl; do
+  name=${file%.glsl}
+  for version in "330 core" "300 es"; do
+    { echo "#version $version"; cat "$shaders/ltc.glsl" "$file"; } > "$work/test.frag"
+    "$validator" "$work/test.frag" > "$work/log" 2>&1 || fail "$file does not compile as GLSL $version"
+  done
+  cat "$shaders/ltc.hlsl" "$name.hlsl" > "$work/test.hlsl"
+  "$validator" -D -V -S frag -e main -o "$work/test.spv" "$work/test.hlsl" > "$work/log" 2>&1 || fail "$name.hlsl does not compile"
+  if [ -n "$spirv_val" ]; then "$spirv_val" "$work/test.spv" > "$work/log" 2>&1 || fail "$name.hlsl: not valid SPIR-V"; fi
+  # what is tested is called
+  sed 's/LtcEntry entry = [A-Za-z]*(/&spheres, /' "$file" | { echo "#version 330 core"; cat "$shaders/ltc.glsl" -; } > "$work/test.frag"
+  "$validator" "$work/test.frag" > "$work/log" 2>&1 && fail "$file: a wrong call compiles"
+  count=$((count + 1))
+done
+[ "$count" -gt 5 ] || fail "only $count look-ups"
 echo "all compiled"
