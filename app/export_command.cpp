@@ -9,9 +9,11 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "app/chebyshev_summary.h"
 #include "app/commands.h"
 #include "app/half_summary.h"
 #include "export/atomic_file.h"
+#include "export/chebyshev_file.h"
 #include "export/formats.h"
 #include "export/profiles.h"
 #include "export/read_table.h"
@@ -31,6 +33,7 @@ struct ExportArguments {
   std::string precision = "float";
   std::string ddsHeader;
   std::string prefix;
+  std::size_t coefficientBytes = 0;  // 0: the default
   bool uncompressed = false;
   bool resample = false;
   bool list = false;
@@ -96,8 +99,12 @@ void writeFiles(const ExportArguments& a, const Table& table, const Written& w) 
     if (!a.quiet) fmt::print(notes, "wrote {} ({} bytes)\n", w.paths[i], w.result.files[i].bytes.size());
   }
   for (const std::string& warning : w.result.warnings) fmt::print(stderr, "ltcfit: warning: {}\n", warning);
-  if (!a.quiet)
+  if (a.quiet) return;
+  if (w.result.chebyshev) {
+    printChebyshevSummary(notes, table, *w.result.table, *w.result.chebyshev, a.report);
+  } else {
     printHalfSummary(notes, w.result.table.value_or(table), w.result.half, a.report ? kWorstNodes : 0);
+  }
 }
 
 int exportAllProfiles(const ExportArguments& a, const Table& table) {
@@ -179,7 +186,11 @@ int exportFormat(const ExportArguments& a, const Table& table) {
   if (a.uncompressed) options.ktx2Compression = Ktx2Compression::kNone;
   if (!a.ddsHeader.empty() && format.name != "dds") throw InputError("--dds-header is for --format dds");
   if (a.uncompressed && format.name != "ktx2") throw InputError("--uncompressed is for --format ktx2");
-  if (a.report && options.precision != Precision::kHalf) throw InputError("--report needs --precision half");
+  const bool chebyshev = format.name == "chebyshev";
+  if (a.coefficientBytes > 0 && !chebyshev) throw InputError("--coefficients is for --format chebyshev");
+  if (a.coefficientBytes > 0) options.coefficientBytes = a.coefficientBytes;
+  if (a.report && options.precision != Precision::kHalf && !chebyshev)
+    throw InputError("--report needs --precision half or --format chebyshev");
   const std::filesystem::path path(a.output);
   Written w{path.parent_path().string(), exportTable(table, format, options, path.filename().string()), {}};
   if (isStream(a.output) && w.result.files[0].name != path.filename())
@@ -195,9 +206,10 @@ int runExport(const ExportArguments& a) {
   if (a.output.empty()) throw InputError("--output is required");
   if (!a.profile.empty()) {
     const std::pair<const char*, bool> others[] = {
-        {"--format", !a.format.empty()},         {"--layout", !a.layout.empty()},
-        {"--precision", a.precision != "float"}, {"--prefix", !a.prefix.empty()},
-        {"--dds-header", !a.ddsHeader.empty()},  {"--uncompressed", a.uncompressed}};
+        {"--format", !a.format.empty()},           {"--layout", !a.layout.empty()},
+        {"--precision", a.precision != "float"},   {"--prefix", !a.prefix.empty()},
+        {"--dds-header", !a.ddsHeader.empty()},    {"--uncompressed", a.uncompressed},
+        {"--coefficients", a.coefficientBytes > 0}};
     for (const auto& [option, given] : others) {
       if (given) throw InputError(fmt::format("{}: a profile settles this; give one of the two", option));
     }
@@ -226,10 +238,10 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
   command->add_option("-o,--output", a->output, "File to write; a folder for profiles of several files")
       ->type_name("PATH");
   command
-      ->add_option(
-          "--format", a->format,
-          "h, hlsl, glsl, glsl-lookup, hlsl-lookup, dds, exr, json, npy, ktx2, js, bin [by the output's\n"
-          "name; h where it has no extension]")
+      ->add_option("--format", a->format,
+                   "h, hlsl, glsl, glsl-lookup, hlsl-lookup, dds, exr, json, npy, ktx2, js, bin, chebyshev [by
+                   "
+                   "the output's name; h where it has no extension]")
       ->type_name("NAME");
   command
       ->add_option(
@@ -262,8 +274,16 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
           "--prefix", a->prefix,
           "Start of the names in source files [the output's file name; anisomats for an anisotropic header]")
       ->type_name("NAME");
+  command
+      ->add_option("--coefficients", a->coefficientBytes,
+                   fmt::format("Bytes of coefficients of --format chebyshev, 2 each, {}..{} [{}]",
+                               kLeastCoefficients * kCoefficientBytes, kMostCoefficients * kCoefficientBytes,
+                               FormatOptions().coefficientBytes))
+      ->check(CLI::Range(kLeastCoefficients * kCoefficientBytes, kMostCoefficients * kCoefficientBytes))
+      ->type_name("BYTES");
   command->add_flag("--report", a->report,
-                    "Print the nodes that half precision changes most, with their errors");
+                    "Print the nodes that half precision changes most, with their errors; for chebyshev the\n"
+                    "errors of the polynomials off-grid, next to the table's own");
   command->add_flag("-q,--quiet", a->quiet, "Print nothing but errors and warnings");
   command->callback([a, &status] { status.exitCode = runExport(*a); });
 }

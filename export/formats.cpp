@@ -9,6 +9,8 @@
 
 #include "export/anisotropic_c_header.h"
 #include "export/c_header.h"
+#include "export/chebyshev_file.h"
+#include "export/chebyshev_source.h"
 #include "export/js_module.h"
 #include "export/json_table.h"
 #include "export/shader_arrays.h"
@@ -66,6 +68,34 @@ std::string standardPrefix(const Table& table, std::string_view format, const st
   return std::filesystem::path(name).stem().string();
 }
 
+// `name` without the extensions that the files get.
+std::string chebyshevName(std::string name) {
+  for (const std::string_view extension : {".json", ".cheb"})
+    if (name.ends_with(extension)) name.resize(name.size() - extension.size());
+  return name;
+}
+
+void exportChebyshev(const Table& table, const FormatOptions& options, const std::string& name,
+                     ExportResult& result) {
+  ChebyshevOptions fit;
+  fit.coefficients = options.coefficientBytes / kCoefficientBytes;
+  fit.round = roundToHalfPrecision;
+  const ChebyshevForm form = fitChebyshev(table, fit);
+  const ChebyshevDifference difference = chebyshevDifference(form, table);
+  const std::string base = chebyshevName(name);
+  const std::string prefix = options.prefix.empty() ? base : options.prefix;
+  const auto shader = [&](ShadingLanguage language) {
+    return chebyshevToShader(form, difference, prefix, language);
+  };
+  result.files = {{base + ".cheb.json", chebyshevToJson(form, difference)},
+                  {base + ".cheb.glsl", shader(ShadingLanguage::kGlsl)},
+                  {base + ".cheb.hlsl", shader(ShadingLanguage::kHlsl)},
+                  {base + ".cheb.h", chebyshevToCHeader(form, difference, prefix)},
+                  {base + ".cheb.js", chebyshevToModule(form, difference)}};
+  result.table = tableOfChebyshev(form);
+  result.chebyshev = difference;
+}
+
 }  // namespace
 
 std::string_view layoutName(Layout layout) {
@@ -106,6 +136,10 @@ const std::vector<FormatInfo>& formats() {
       {"js", ".js", "ES module: LTC_MAT_1, LTC_MAT_2 (isotropic) or LTC_ROW_0..2; LTC_INFO", false, false,
        false},
       {"json", ".json", "the table file: everything, lossless", false, false, false, Layout::kChannels},
+      {"chebyshev", ".cheb.json",
+       "polynomials of some 100 coefficients, no texture; NAME.cheb.json and decoders NAME.cheb.glsl, .hlsl, "
+       ".h, .js",
+       false, false, true},
   };
   return list;
 }
@@ -125,9 +159,13 @@ ExportResult exportTable(const Table& table, const FormatInfo& format, const For
   if (options.precision == Precision::kHalf && !format.half) refuse("holds float32 only, not half");
   if (options.layout != format.standard && !format.layouts) refuse("has one layout only");
   if (!options.prefix.empty() && !format.prefix) refuse("has no identifiers for --prefix");
+  ExportResult result;
+  if (format.name == "chebyshev") {
+    exportChebyshev(table, options, name, result);
+    return result;
+  }
   const std::string prefix =
       options.prefix.empty() ? standardPrefix(table, format.name, name) : options.prefix;
-  ExportResult result;
   addWarnings(table, format, options, result);
   if (format.name == "json") {
     result.files = {{name, tableToJson(table)}};

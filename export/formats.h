@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "export/texture_files.h"
+#include "ltc/chebyshev_fit.h"
 
 namespace ltcfit {
 
@@ -22,7 +23,8 @@ struct FormatOptions {
   Precision precision = Precision::kFloat;
   DdsHeader ddsHeader = DdsHeader::kDx10;
   Ktx2Compression ktx2Compression = Ktx2Compression::kZstd;
-  std::string prefix;  ///< of identifiers in source files; empty for the default
+  std::string prefix;                  ///< of identifiers in source files; empty for the default
+  std::size_t coefficientBytes = 320;  ///< of the Chebyshev form, kCoefficientBytes each
 };
 
 /// What a format can do, for messages and lists.
@@ -50,7 +52,8 @@ struct ExportResult {
   std::vector<ExportFile> files;
   std::vector<std::string> warnings;
   HalfReport half;
-  std::optional<Table> table;  ///< what was packed, where that is not the table given (resampled)
+  std::optional<ChebyshevDifference> chebyshev;
+  std::optional<Table> table;  ///< what was written, where that is not the table given (resampled, expanded)
 };
 
 /// `name` is the file's, without folder. Throws std::invalid_argument for options that the format does not

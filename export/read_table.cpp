@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "export/atomic_file.h"
+#include "export/chebyshev_file.h"
 #include "export/dds.h"
 #include "export/exr.h"
 #include "export/json_table.h"
@@ -220,6 +221,8 @@ TableFile readTableFile(const std::string& path) {
   if (bytes[start] == '{') {
     if (isTextureMetadata(bytes))
       throw InputError(path + ": describes a texture file; give that one (the name without .json)");
+    if (isChebyshevJson(bytes))
+      return {tableOfChebyshev(chebyshevFromJson(bytes, path)), "Chebyshev form", std::nullopt};
     return {tableFromJson(bytes, path), "JSON", std::nullopt};
   }
   if (looksLikeText(bytes)) {

@@ -12,6 +12,7 @@ namespace ltcfit {
 
 /// Reads a table by its content, whatever its name says:
 ///   our JSON;
+///   our Chebyshev form (.cheb.json), as the table of tableOfChebyshev;
 ///   what `ltcfit export` writes as KTX2, EXR, DDS, .npy or raw numbers, with the metadata in the file or in
 ///   FILE.json beside it;
 /// Metadata beside a file count only with the checksum of that file.
@@ -27,7 +28,7 @@ Table readTable(const std::string& path);
 /// The same with what the file holds, for who hands its textures on.
 struct TableFile {
   Table table;
-  std::string format;                   ///< "KTX2", "DDS", "EXR", ".npy", "JSON", "binary", "source code"
+  std::string format;  ///< "KTX2", "DDS", "EXR", ".npy", "JSON", "Chebyshev form", "binary", "source code"
   std::optional<PackedTable> textures;  ///< as they lie in the file; nothing where it holds a table or code
 };
 TableFile readTableFile(const std::string& path);

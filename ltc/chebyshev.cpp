@@ -89,7 +89,8 @@ TableEntry ChebyshevForm::evaluate(const LobeParameters& parameters) const {
   entry.mInv = entry.m.inverse();
   entry.invertible = entry.mInv.allFinite() && std::abs(entry.m.determinant()) > 0.0;
   entry.norm = 1.0 - 0.5 * (at.s + 1.0) * value(ChebyshevFunction::kNorm);
-  entry.fresnel = std::pow(1.0 - cosTheta, 5) + value(ChebyshevFunction::kFresnel);
+  // an albedo: where it is next to nothing, what the sum is off by would make it negative
+  entry.fresnel = std::max(0.0, std::pow(1.0 - cosTheta, 5) + value(ChebyshevFunction::kFresnel));
   return entry;
 }
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "export/atomic_file.h"
+#include "export/chebyshev_file.h"
 #include "export/dds.h"
 #include "export/exr.h"
 #include "export/formats.h"
@@ -175,6 +176,15 @@ Sample exported(const Table& table, const std::string& format, const FormatOptio
   return sample;
 }
 
+// A small form, read as the smallest table: the one that readTable makes has the same size for any file.
+Sample chebyshev() {
+  ChebyshevForm form;
+  form.functions = {{{{2.0, -0.5}, {0.25}}, {{0.125}}, {{0.5}}, {{-0.25, 0.125}}, {{0.5}}, {{0.0625}}}};
+  return {"chebyshev", chebyshevToJson(form, {}),
+          [](std::string_view bytes) { return tableOfChebyshev(chebyshevFromJson(bytes, "T"), 4); }, 32,
+          true};
+}
+
 std::string withoutLastLine(const std::string& text) {
   return text.substr(0, text.rfind('\n', text.size() - 2) + 1);
 }
@@ -245,6 +255,7 @@ std::vector<Sample> samples() {
                  },
                  32, true});
   all.push_back(exported(iso, "js", {}, "module"));
+  all.push_back(chebyshev());
   all.push_back(engineBinary(true));
   all.push_back(engineBinary(false));
   return all;

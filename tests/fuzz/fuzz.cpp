@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "export/atomic_file.h"
+#include "export/chebyshev_file.h"
 #include "export/dds.h"
 #include "export/exr.h"
 #include "export/json_table.h"
@@ -80,6 +81,7 @@ void read(std::string_view bytes) {
 #else
   attempt([&] { tableFromJson(bytes, "T"); });
   attempt([&] { tableFromSource(bytes, "T"); });
+  attempt([&] { checkChebyshev(chebyshevFromJson(bytes, "T")); });
   // as many numbers as a 4 x 4 table has
   attempt([&] {
     tableFromPacked(packedFromNumbers(packedFromMetadata(bytes, "T"), std::vector<float>(128, 0.5f), "T"),

@@ -22,6 +22,9 @@ for kind in iso aniso; do
       for source in h js; do "$ltcfit" export $kind.json --format $source -q -o seeds/$kind.$source; done
       "$ltcfit" export $kind.json --format bin -q -o $kind.bin
       cp $kind.bin.json seeds/
+      if [ $kind = iso ]; then
+        "$ltcfit" export $kind.json --format chebyshev --coefficients 96 -q -o cheb && cp cheb.cheb.json seeds/
+      fi
       ;;
   esac
 done

@@ -25,7 +25,7 @@ ChebyshevForm sampleForm() {
   form.functions[2] = {{0.5, 0.2}, {-0.4, 0.15, 0.01}, {0.1}};
   form.functions[3] = {{-0.2, -0.1, 0.05}, {0.1}};
   form.functions[4] = {{0.2, 0.25}, {-0.05, 0.02}};
-  form.functions[5] = {{0.02, -0.01}, {-0.03, 0.02}, {0.01}};
+  form.functions[5] = {{0.2, -0.01}, {-0.03, 0.02}, {0.01}};
   form.provenance.command = "by hand";
   return form;
 }

@@ -1,0 +1,15 @@
+// What the Chebyshev form of a table loses, in words.
+#pragma once
+
+#include <cstdio>
+
+#include "ltc/chebyshev_fit.h"
+
+namespace ltcfit::app {
+
+/// A line on how far the form is from the table at its nodes. `expanded` is the form's own table; `measured`:
+/// also the errors of both against the lobes, off-grid, as `ltcfit score` has them.
+void printChebyshevSummary(std::FILE* out, const Table& table, const Table& expanded,
+                           const ChebyshevDifference& difference, bool measured);
+
+}  // namespace ltcfit::app
