@@ -29,6 +29,7 @@ void addExportCommand(CLI::App& app, CommandStatus& status);
 void addParetoCommand(CLI::App& app, CommandStatus& status);
 void addPrefilterCommand(CLI::App& app, CommandStatus& status);
 void addReportCommand(CLI::App& app, CommandStatus& status);
+void addSceneCommand(CLI::App& app, CommandStatus& status);
 void addScoreCommand(CLI::App& app, CommandStatus& status);
 void addStabilityCommand(CLI::App& app, CommandStatus& status);
 

@@ -239,9 +239,8 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
       ->type_name("PATH");
   command
       ->add_option("--format", a->format,
-                   "h, hlsl, glsl, glsl-lookup, hlsl-lookup, dds, exr, json, npy, ktx2, js, bin, chebyshev [by
-                   "
-                   "the output's name; h where it has no extension]")
+                   "h, hlsl, glsl, glsl-lookup, hlsl-lookup, dds, exr, json, npy, ktx2, js, bin, chebyshev\n"
+                   "[by the output's name; h where it has no extension]")
       ->type_name("NAME");
   command
       ->add_option(

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/fit_plan.h"
 #include "app/fit_runs.h"
 #include "export/atomic_file.h"
 
@@ -144,8 +145,18 @@ void addEntry(CLI::App& fit, CommandStatus& status) {
 }  // namespace
 
 void addFitCommand(CLI::App& app, CommandStatus& status) {
-  CLI::App* const fit = app.add_subcommand("fit", "Fit a table, or a single lobe");
-  fit->require_subcommand(1);
+  CLI::App* const fit =
+      app.add_subcommand("fit", "Fit a table, or a single lobe; with --plan or --scene, what a scene needs");
+  fit->require_subcommand(0, 1);
+  auto a = std::make_shared<PlanFitArguments>();
+  addPlanFitOptions(*fit, *a);
+  fit->callback([a, fit, &status] {
+    if (fit->get_subcommands().empty()) {
+      status.exitCode = fitPlanCommand(*fit, *a);
+    } else if (fit->count_all() > 1 + fit->get_subcommands()[0]->count_all()) {
+      throw std::invalid_argument("fit: options of --plan and --scene do not go with a subcommand");
+    }
+  });
   addIso(*fit, status);
   addAniso(*fit, status);
   addEntry(*fit, status);

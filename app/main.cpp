@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
       "Help on a command: ltcfit COMMAND --help");
   CommandStatus status;
   addFitCommand(app, status);
+  addSceneCommand(app, status);
   addScoreCommand(app, status);
   addCompareCommand(app, status);
   addExportCommand(app, status);
