@@ -194,18 +194,19 @@ void makeFolder(const std::string& path) {
 }
 
 // The one asked for, or all that have names.
-std::vector<Scene> scenesToShow(bool anisotropic, const ShadingCheckOptions& options) {
+std::vector<Scene> scenesToShow(bool anisotropic, bool fresnel, const ShadingCheckOptions& options) {
   if (options.custom) return {makeScene(*options.custom)};
   std::vector<Scene> out;
   for (const std::vector<CheckScene>& scenes : {namedScenes(anisotropic), texturedScenes()})
-    for (const CheckScene& check : scenes) out.push_back(check.scene);
+    for (const CheckScene& check : scenes)
+      if (fresnel || !check.scene.needsFresnel()) out.push_back(check.scene);
   return out;
 }
 
 // Everything that may be written into the folder.
 std::vector<std::string> outputNames(const ShadingCheckOptions& options) {
   std::vector<std::string> out{"shading.json", "contact.png", "lost.png"};
-  for (const Scene& scene : scenesToShow(true, options))
+  for (const Scene& scene : scenesToShow(true, true, options))
     for (const char* const ending : {".png", ".exr"}) out.push_back(scene.name + ending);
   return out;
 }
@@ -244,7 +245,7 @@ int checkGlCommand(const CheckGlArguments& a) {
   if (a.window) {
     fmt::print("{}", windowHelp());
     std::fflush(stdout);
-    showWindow(table, scenesToShow(!table.isIsotropic(), options));
+    showWindow(table, scenesToShow(!table.isIsotropic(), table.hasFresnel(), options));
     return kExitOk;
   }
   if (!a.output.empty()) checkOutput(a, options);
@@ -254,7 +255,10 @@ int checkGlCommand(const CheckGlArguments& a) {
     check = runShadingCheck(table, against ? &*against : nullptr, options,
                             [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
-  const std::vector<ShaderVariantCost> costs = shaderVariantCosts();
+  std::vector<ShaderVariant> variants = shaderVariants();
+  if (table.lookup)
+    for (ShaderVariant& variant : lookupVariants(table.table.info())) variants.push_back(std::move(variant));
+  const std::vector<ShaderVariantCost> costs = costsOf(std::move(variants));
   const nlohmann::ordered_json json =
       shadingToJson({fileName(a.table), &table}, {fileName(a.against), against ? &*against : nullptr},
                     options, check, costs, commandOf(a));

@@ -190,7 +190,14 @@ Packing packingOfRows() {
 }
 
 Packing packingLean(const TableInfo& info) {
-  if (info.axes.size() == 4) return packingOfRows();
+  if (info.axes.size() == 4) {
+    Packing packing = packingOfRows();
+    for (TextureSpec& row : packing.textures) {
+      std::string& last = row.components.back();
+      if (!holds(info, last)) last.assign(1, '0');
+    }
+    return packing;
+  }
   Packing packing = packing2017();
   packing.textures[1].components = amplitudesOf(info);
   if (packing.textures[1].components.empty()) packing.textures.pop_back();

@@ -51,7 +51,8 @@ Packing packing2017();
 Packing packingOfRows();
 
 /// What the table has and nothing else. Isotropic: the matrix of packing2017, and a texture of norm and
-/// fresnel, or the one of them that there is; none where there is neither. Anisotropic: packingOfRows.
+/// fresnel, or the one of them that there is; none where there is neither. Anisotropic: packingOfRows, "0"
+/// for those that it lacks.
 Packing packingLean(const TableInfo& info);
 
 /// Of "norm" and "fresnel" those that the table has, in this order.

@@ -257,6 +257,13 @@ int fetchesOf(const TableInfo& info) {
   return info.axes[0].size() > 1 && info.axes[1].size() > 1 ? 6 : 3;
 }
 
+std::string ShaderLookup::call(const std::map<std::string, std::string>& arguments) const {
+  std::string text;
+  for (const std::string& parameter : parameters)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", arguments.at(parameter));
+  return fmt::format("{}({})", function, text);
+}
+
 ShaderLookup makeShaderLookup(const TableInfo& info, ShadingLanguage language, const std::string& prefix) {
   for (const Axis& axis : info.axes) {
     if (axis.size() > 1 && axis.map == AxisMap::kNone)

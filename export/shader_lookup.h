@@ -1,6 +1,7 @@
 // The look-up of one table as shader source, with that table's constants and nothing that it does not need.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct ShaderLookup {
   /// and anisotropic, of table, alphaX, alphaY, view, those that the table has a use for; under HLSL
   /// `bilinear` stands behind the textures. They mean what they mean in ltcFetch and ltcFetchAnisotropic.
   std::vector<std::string> parameters;
+
+  /// The expression that calls it, with these for the parameters by name; all that it has must be there.
+  std::string call(const std::map<std::string, std::string>& arguments) const;
 };
 
 /// The look-up in textures of packingLean, in float or half: maps, ranges and warps of the axes as constants;

@@ -103,9 +103,15 @@ GlObject makeTexture(const Image& image) {
   if (!half) requireFloatFilter();
   const GLenum target = image.depth > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
   GlObject texture = boundTexture(target, GL_LINEAR);
-  const bool pair = image.components == 2;
-  const GLint format = half ? (pair ? GL_RG16F : GL_RGBA16F) : (pair ? GL_RG32F : GL_RGBA32F);
-  const GLenum order = pair ? GL_RG : GL_RGBA;
+  GLint format = half ? GL_RGBA16F : GL_RGBA32F;
+  GLenum order = GL_RGBA;
+  if (image.components == 2) {
+    format = half ? GL_RG16F : GL_RG32F;
+    order = GL_RG;
+  } else if (image.components == 1) {
+    format = half ? GL_R16F : GL_R32F;
+    order = GL_RED;
+  }
   // the halves themselves: what a driver makes of floats that are given for halves is its own
   const GLenum type = half ? GL_HALF_FLOAT : GL_FLOAT;
   std::string bytes;

@@ -44,8 +44,9 @@ void checkGl(std::string_view what);
 GlObject makeProgram(std::span<const std::string_view> vertex, std::span<const std::string_view> fragment,
                      std::string_view name);
 
-/// A 2D texture, or a 3D one where the image has a depth: 2 or 4 components in the image's precision, linear
-/// filtering, clamped to the edge, one level. Throws GlError where the context cannot filter such textures.
+/// A 2D texture, or a 3D one where the image has a depth: 1, 2 or 4 components in the image's precision,
+/// linear filtering, clamped to the edge, one level. Throws GlError where the context cannot filter such
+/// textures.
 GlObject makeTexture(const Image& image);
 
 /// A light's texture as ltc_textured.glsl reads it: RGBA32F, all levels, trilinear, clamped to the edge.

@@ -22,7 +22,7 @@ bool isTextured(const Scene& scene) {
                      [](const PolygonLight& l) { return l.texture >= 0; });
 }
 
-void check(const Scene& scene, bool isotropicTable, std::size_t textures) {
+void check(const Scene& scene, bool isotropicTable, bool hasFresnel, std::size_t textures) {
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument(fmt::format("scene '{}': {}", scene.name, what));
   };
@@ -39,6 +39,7 @@ void check(const Scene& scene, bool isotropicTable, std::size_t textures) {
     if (light.vertices.size() != 4) fail("a textured light that is no rectangle");
   }
   if (isotropicTable && !scene.isIsotropic()) fail("anisotropic materials need an anisotropic table");
+  if (!hasFresnel && scene.needsFresnel()) fail("f0 below 1 needs a table with fresnel");
 }
 
 std::size_t mostVertices(const Scene& scene) {
@@ -60,7 +61,7 @@ std::string sceneDefines(const Scene& scene, std::size_t textures) {
   define("RECTANGLES", anySurface([](const Surface& s) { return s.shape == SurfaceShape::kRectangle; }));
   define("SPHERES", anySurface([](const Surface& s) { return s.shape == SurfaceShape::kSphere; }));
   define("RAMPS", anySurface([](const Surface& s) { return s.material.isRamp(); }));
-  define("FRESNEL", anySurface([](const Surface& s) { return s.material.f0 < 1.0; }));
+  define("FRESNEL", scene.needsFresnel());
   define("DIFFUSE", anySurface([](const Surface& s) { return s.material.diffuse > 0.0; }));
   define("QUADS", anyLight([](const PolygonLight& l) { return l.vertices.size() == 4; }));
   define("POLYGONS", anyLight([](const PolygonLight& l) { return l.vertices.size() != 4; }));
@@ -171,6 +172,19 @@ void setCamera(const Uniforms& uniforms, const Camera& camera, std::size_t width
   uniforms.set("pictureSize", size);
 }
 
+// The look-up with what scene.glsl calls its arguments.
+std::string callInScene(const ShaderLookup& lookup) {
+  static const std::map<std::string, std::string> kArguments{{"matrixTable", "matrixTable"},
+                                                             {"amplitudeTable", "amplitudeTable"},
+                                                             {"table", "lobes"},
+                                                             {"roughness", "roughness.x"},
+                                                             {"nDotV", "dot(n, view)"},
+                                                             {"alphaX", "roughness.x * roughness.x"},
+                                                             {"alphaY", "roughness.y * roughness.y"},
+                                                             {"view", "frame * view"}};
+  return lookup.call(kArguments);
+}
+
 void drawPicture() {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -178,10 +192,17 @@ void drawPicture() {
 }  // namespace
 
 GlRenderer::GlRenderer(const ShaderTable& table, std::string ltcGlsl)
-    : ltcGlsl_(std::move(ltcGlsl)), isotropic_(table.isIsotropic()), vertexArray_(makeVertexArray()) {
+    : ltcGlsl_(std::move(ltcGlsl)),
+      isotropic_(table.isIsotropic()),
+      hasFresnel_(table.hasFresnel()),
+      vertexArray_(makeVertexArray()) {
   if (!isotropic_) {
     const auto [alphas, lambdas] = table.nodes();
     tableDefines_ = fmt::format("#define LTC_NODES ivec2({}, {})\n", alphas, lambdas);
+  }
+  if (table.lookup) {
+    tableDefines_ += fmt::format("#define LTC_LOOKUP {}\n", callInScene(*table.lookup));
+    ltcGlsl_ += table.lookup->source;
   }
   for (const Image& image : table.textures) textures_.push_back(makeTexture(image));
 }
@@ -199,7 +220,7 @@ void GlRenderer::useTextures(const std::vector<PrefilteredTexture>& textures) {
 
 // Makes the program of the scene current, with its uniforms and the textures.
 void GlRenderer::prepare(const Scene& scene, std::size_t width, std::size_t height, bool forDisplay) {
-  check(scene, isotropic_, lightTextures_.size());
+  check(scene, isotropic_, hasFresnel_, lightTextures_.size());
   const std::string defines =
       tableDefines_ + sceneDefines(scene, lightTextures_.size()) + (forDisplay ? "#define DISPLAY\n" : "");
   auto program = programs_.find(defines);

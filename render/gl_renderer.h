@@ -1,4 +1,5 @@
-// Scenes of the shading check, drawn by OpenGL with the shader that we ship and a table's own textures.
+// Scenes of the shading check, drawn by OpenGL with the shader that we ship and a table's own textures;
+// tables that this does not look up with the look-up that we export for them.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +21,8 @@ inline constexpr std::size_t kMaxLightTextures = 4;
 
 /// Needs a current context, the same for all calls and the destructor: a GlContext or a window's. All throw
 /// GlError, and std::invalid_argument for scenes without surfaces or lights, with more of them than there is
-/// room for (scene.h), with anisotropic materials where the table is isotropic, or with lights of a texture
-/// that was not given.
+/// room for (scene.h), with anisotropic materials where the table is isotropic, with an f0 below 1 where it
+/// has no fresnel, or with lights of a texture that was not given.
 class GlRenderer {
  public:
   /// `ltcGlsl`: text in place of ltc.glsl, for tests that plant a fault in it.
@@ -47,6 +48,7 @@ class GlRenderer {
   std::string ltcGlsl_;
   std::string tableDefines_;
   bool isotropic_;
+  bool hasFresnel_;
   std::vector<GlObject> textures_;
   std::vector<GlObject> lightTextures_;
   std::vector<Eigen::Vector2d> lightTextureFetch_;  ///< margin and lodScale of each

@@ -97,6 +97,12 @@ struct Scene {
       if (!s.material.isIsotropic()) return false;
     return true;
   }
+  /// Whether some f0 is below 1, so that tables without fresnel cannot shade it.
+  bool needsFresnel() const {
+    for (const Surface& s : surfaces)
+      if (s.material.f0 < 1.0) return true;
+    return false;
+  }
 };
 
 /// Where the ray through the centre of a pixel first meets a surface.

@@ -12,23 +12,19 @@
 #include "export/packing.h"
 #include "export/read_table.h"
 #include "export/texture_files.h"
+#include "ltc/resample.h"
 
 namespace ltcfit {
 namespace {
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
-bool hasAmplitudes(const Table& table) {
+bool has(const Table& table, std::string_view channel) {
   const std::vector<std::string>& channels = table.info().channels;
-  return std::count(channels.begin(), channels.end(), "norm") == 1 &&
-         std::count(channels.begin(), channels.end(), "fresnel") == 1;
+  return std::find(channels.begin(), channels.end(), channel) != channels.end();
 }
 
-Packing shaderPacking(const Table& table) {
-  return table.isIsotropic() ? packing2017() : packingOfRows();
-}
-
-// Node i of every axis where the shader's formula puts it.
+// Node i of every axis where the formula of ltc.glsl puts it.
 bool hasShaderAxes(const Table& table) {
   const std::vector<Axis>& axes = table.info().axes;
   if (table.isIsotropic())
@@ -47,7 +43,9 @@ bool hasShaderLayout(const PackedTable& packed, const Packing& wanted) {
   for (std::size_t t = 0; t < is.textures.size(); ++t) {
     const std::vector<std::string>& components = is.textures[t].components;
     const std::vector<std::string>& asked = wanted.textures[t].components;
-    const std::size_t read = wanted.stores == MatrixStorage::kMinv && t == 1 ? 2 : asked.size();
+    const std::size_t read = wanted.stores == MatrixStorage::kMinv && t == 1
+                                 ? std::min<std::size_t>(2, asked.size())
+                                 : asked.size();
     if (components.size() != read && components.size() != asked.size()) return false;
     if (!std::equal(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(read), components.begin()))
       return false;
@@ -65,25 +63,41 @@ LobeParameters lookedUp(const Table& table, const std::vector<std::size_t>& node
   return {at[0], at[0] * at[1], at[2], at[3]};
 }
 
+// With those of norm and fresnel that it lacks and the other has.
 Table withAmplitudes(const Table& table, const Table& amplitudes) {
   TableInfo info = table.info();
-  std::vector<std::size_t> kept;
-  info.channels.clear();
-  for (std::size_t c = 0; c < table.channelCount(); ++c) {
-    const std::string& channel = table.info().channels[c];
-    if (channel == "norm" || channel == "fresnel") continue;
-    info.channels.push_back(channel);
-    kept.push_back(c);
-  }
-  info.channels.insert(info.channels.end(), {"norm", "fresnel"});
+  std::vector<std::string> added;
+  for (const char* const channel : {"norm", "fresnel"})
+    if (!has(table, channel) && has(amplitudes, channel)) added.emplace_back(channel);
+  info.channels.insert(info.channels.end(), added.begin(), added.end());
   std::vector<float> data;
   data.reserve(table.nodeCount() * info.channels.size());
   for (std::size_t i = 0; i < table.nodeCount(); ++i) {
-    for (std::size_t c : kept) data.push_back(table.data()[i * table.channelCount() + c]);
+    for (std::size_t c = 0; c < table.channelCount(); ++c)
+      data.push_back(table.data()[i * table.channelCount() + c]);
     const TableEntry entry = amplitudes.fetch(lookedUp(table, table.node(i)));
-    data.insert(data.end(), {static_cast<float>(*entry.norm), static_cast<float>(*entry.fresnel)});
+    for (const std::string& channel : added)
+      data.push_back(static_cast<float>(channel == "norm" ? *entry.norm : *entry.fresnel));
   }
   return Table(std::move(info), std::move(data));
+}
+
+// What to know of a table that does not answer for every lobe.
+std::string limitsText(const Table& table) {
+  std::string text;
+  for (std::size_t a = 0; a < table.info().axes.size(); ++a) {
+    const AxisReach reach = reachOf(table.info(), a);
+    const Axis& axis = table.info().axes[a];
+    const bool angle = axis.unit == "rad";
+    if (reach.low == 0.0 && reach.high == (angle ? kHalfPi : 1.0)) continue;
+    const double unit = angle ? 180.0 / std::numbers::pi : 1.0;
+    text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", axis.name, reach.low * unit);
+    if (reach.high > reach.low) text += fmt::format("..{:.4g}", reach.high * unit);
+    if (angle) text += " degrees";
+  }
+  if (!text.empty()) text = fmt::format("; only {}, the nearest end for other lobes", text);
+  if (!has(table, "fresnel")) text += "; no fresnel: scenes of f0 = 1 only";
+  return text;
 }
 
 std::vector<Image> shaderTextures(const PackedTable& packed) {
@@ -93,36 +107,39 @@ std::vector<Image> shaderTextures(const PackedTable& packed) {
 
 }  // namespace
 
+bool ShaderTable::hasFresnel() const {
+  return has(table, "fresnel");
+}
+
 ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
   TableFile file = readTableFile(path);
-  if (!hasShaderAxes(file.table)) {
-    throw InputError(
-        fmt::format("{}: its axes are not those that ltc.glsl looks up ({})", path,
-                    file.table.isIsotropic()
-                        ? "theta by sqrt(1 - cos theta) and alpha by its root, from 0 to 90 degrees and "
-                          "0 to 1"
-                        : "alpha = max, lambda, theta and phi, all linear from 0 to 1 and 90 degrees"));
-  }
-  const Packing packing = shaderPacking(file.table);
-  if (hasAmplitudes(file.table) && file.textures && hasShaderLayout(*file.textures, packing)) {
-    const PackedTable& packed = *file.textures;
-    return {shaderTextures(packed), std::move(file.table),
-            fmt::format("read texel for texel from {}, {}", file.format,
-                        packed.images[0].precision == Precision::kHalf ? "half" : "float32")};
-  }
-  std::string note = fmt::format("converted from {} to float32 textures", file.format);
-  if (!hasAmplitudes(file.table)) {
-    if (amplitudes == nullptr || !hasAmplitudes(*amplitudes) ||
-        (amplitudes->isIsotropic() && !file.table.isIsotropic()))
-      throw InputError(path + ": has no norm and Fresnel to shade with");
-    file.table = withAmplitudes(file.table, *amplitudes);
-    note += "; norm and Fresnel of another table";
-  }
   try {
+    const bool lacks = !has(file.table, "norm") || !has(file.table, "fresnel");
+    const bool mended = lacks && amplitudes != nullptr &&
+                        amplitudes->isIsotropic() == file.table.isIsotropic() &&
+                        (has(*amplitudes, "norm") || has(file.table, "norm"));
+    if (mended) file.table = withAmplitudes(file.table, *amplitudes);
+    if (!has(file.table, "norm")) throw std::invalid_argument("has no norm to shade with");
+    const bool standard = hasShaderAxes(file.table) && has(file.table, "fresnel");
+    std::optional<ShaderLookup> lookup;
+    if (!standard) lookup = makeShaderLookup(file.table.info(), ShadingLanguage::kGlsl, "ltcTable");
+    const Packing packing = !standard                  ? packingLean(file.table.info())
+                            : file.table.isIsotropic() ? packing2017()
+                                                       : packingOfRows();
+    if (!mended && file.textures && hasShaderLayout(*file.textures, packing)) {
+      const PackedTable& packed = *file.textures;
+      const bool half = packed.images[0].precision == Precision::kHalf;
+      std::string note = fmt::format("read texel for texel from {}, {}{}", file.format,
+                                     half ? "half" : "float32", limitsText(file.table));
+      return {shaderTextures(packed), std::move(file.table), std::move(note), std::move(lookup)};
+    }
     const PackedTable packed = pack(file.table, packing, Precision::kFloat);
-    return {shaderTextures(packed), unpack(packed), std::move(note)};
+    return {shaderTextures(packed), unpack(packed),
+            fmt::format("converted from {} to float32 textures{}{}", file.format,
+                        mended ? "; norm and Fresnel of another table" : "", limitsText(file.table)),
+            std::move(lookup)};
   } catch (const std::invalid_argument& error) {
-    throw InputError(path + ": " + error.what());
+    throw InputError(fmt::format("{}: {}", path, error.what()));
   }
 }
 

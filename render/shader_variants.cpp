@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string_view>
 
+#include "export/packing.h"
+#include "export/shader_lookup.h"
 #include "render/shader_text.h"
 
 namespace ltcfit {
@@ -65,16 +68,42 @@ constexpr Light kLights[] = {
     {"proxy sphere by table", "comparison: clipped by a stored sphere", 4,
      "ltcProxySphereTable(spheres, {})"}};
 
-std::string source(const Lookup& lookup, const Light& light, std::string_view skip, std::string_view shade) {
+// `own`: the text of a look-up beside those of ltc.glsl.
+std::string source(const Lookup& lookup, const Light& light, std::string_view skip, std::string_view shade,
+                   std::string_view own = "") {
   std::string text = fmt::format("#version 450\n#define LTC_MAX_VERTICES {}\n", light.vertices);
   text += shaderText("ltc.glsl");
   text += shaderText("ltc_proxy.glsl");
+  text += own;
   text += kHead;
   text += fmt::format(
       "void main() {{\ncolour = vec3(0.0);\n{}vec3 local[{}];\n"
       "for (int i = 0; i < {}; ++i) local[i] = frame * (corners[i] - position);\n{}{}{}}}\n",
       lookup.frame, light.vertices, light.vertices, skip, lookup.fetch, shade);
   return text;
+}
+
+// A shader that hands out the entry, which costs nothing.
+std::string aloneSource(const std::string& call, std::string_view own) {
+  return fmt::format(
+      "#version 450\n{}{}uniform sampler2D matrixTable;\nuniform sampler2D amplitudeTable;\n"
+      "uniform sampler3D lobes;\nin float roughness;\nin float nDotV;\nin vec2 alpha;\nin vec3 view;\n"
+      "out vec3 first;\nout vec3 second;\nout vec3 third;\nout vec2 amplitude;\n"
+      "void main() {{\nLtcEntry entry = {};\nfirst = entry.inverse[0];\nsecond = entry.inverse[1];\n"
+      "third = entry.inverse[2];\namplitude = vec2(entry.norm, entry.fresnel);\n}}\n",
+      shaderText("ltc.glsl"), own, call);
+}
+
+std::string callOf(const ShaderLookup& lookup, const char* nDotV, const char* view) {
+  const std::map<std::string, std::string> arguments{{"matrixTable", "matrixTable"},
+                                                     {"amplitudeTable", "amplitudeTable"},
+                                                     {"table", "lobes"},
+                                                     {"roughness", "roughness"},
+                                                     {"nDotV", nDotV},
+                                                     {"alphaX", "alpha.x"},
+                                                     {"alphaY", "alpha.y"},
+                                                     {"view", view}};
+  return lookup.call(arguments);
 }
 
 std::string specular(const Light& light, const Reflectance& reflectance) {
@@ -107,13 +136,39 @@ std::vector<ShaderVariant> shaderVariants() {
   return variants;
 }
 
-std::vector<ShaderVariantCost> shaderVariantCosts() {
+std::vector<ShaderVariant> lookupVariants(const TableInfo& info) {
+  const ShaderLookup own = makeShaderLookup(info, ShadingLanguage::kGlsl, "ltcTable");
+  const Lookup& general = kLookups[info.axes.size() == 2 ? 0 : 1];
+  std::vector<ShaderVariant> variants{
+      {fmt::format("{}, look-up alone", general.name), "that of ltc.glsl",
+       aloneSource(info.axes.size() == 2 ? "ltcFetch(matrixTable, amplitudeTable, roughness, nDotV)"
+                                         : "ltcFetchAnisotropic(lobes, ivec2(8), alpha.x, alpha.y, view)",
+                   "")},
+      {"this table, look-up alone", "that made for the table",
+       aloneSource(callOf(own, "nDotV", "view"), own.source)}};
+  const std::string fetch =
+      fmt::format("LtcEntry entry = {};\n", callOf(own, "dot(normal, view)", "frame * view"));
+  const bool fresnel = amplitudesOf(info).size() == 2;
+  for (const Reflectance& reflectance : kReflectances) {
+    if (&reflectance != &kReflectances[0] && !fresnel) continue;
+    variants.push_back(
+        {fmt::format("this table, {}, {}", reflectance.name, kQuad.name), std::string(kQuad.purpose),
+         source({"", general.frame, fetch}, kQuad, "", specular(kQuad, reflectance), own.source)});
+  }
+  return variants;
+}
+
+std::vector<ShaderVariantCost> costsOf(std::vector<ShaderVariant> variants) {
   std::vector<ShaderVariantCost> costs;
-  for (ShaderVariant& variant : shaderVariants()) {
+  for (ShaderVariant& variant : variants) {
     const ShaderCost cost = shaderCost(variant.source);
     costs.push_back({std::move(variant), cost});
   }
   return costs;
+}
+
+ShaderCost lookupCost(const TableInfo& info) {
+  return shaderCost(lookupVariants(info)[1].source);
 }
 
 std::string formatShaderCosts(std::span<const ShaderVariantCost> costs) {

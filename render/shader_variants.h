@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ltc/table.h"
 #include "render/shader_cost.h"
 
 namespace ltcfit {
@@ -22,11 +23,18 @@ struct ShaderVariant {
 /// horizon, less the two tests that find that out.
 std::vector<ShaderVariant> shaderVariants();
 
+/// The look-up made for one table (makeShaderLookup): alone, after that of ltc.glsl alone, and with a quad by
+/// F0 = 1 and, if it has fresnel, by Schlick's Fresnel. Alone means from roughness and N.V, or alphas and
+/// view, to the entry. std::invalid_argument for tables that have none.
+std::vector<ShaderVariant> lookupVariants(const TableInfo& info);
+
 struct ShaderVariantCost {
   ShaderVariant variant;
   ShaderCost cost;
 };
-std::vector<ShaderVariantCost> shaderVariantCosts();
+std::vector<ShaderVariantCost> costsOf(std::vector<ShaderVariant> variants);
+/// Of a table's look-up alone.
+ShaderCost lookupCost(const TableInfo& info);
 
 /// A line a variant, after one of headings: columns of fixed width, the special functions by name at the end.
 std::string formatShaderCosts(std::span<const ShaderVariantCost> costs);

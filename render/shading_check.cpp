@@ -162,12 +162,14 @@ ShadingCheck runShadingCheck(const ShaderTable& table, const ShaderTable* other,
     scenes = namedScenes(anisotropic);
     for (CheckScene& check : texturedScenes()) scenes.push_back(std::move(check));
   }
+  const bool fresnel = table.hasFresnel() && (other == nullptr || other->hasFresnel());
+  if (!fresnel) std::erase_if(scenes, [](const CheckScene& check) { return check.scene.needsFresnel(); });
   for (CheckScene& check : scenes) {
     check.scene.camera.width = options.width;
     check.scene.camera.height = options.height;
   }
   const std::size_t randomScenes = options.custom ? 0 : options.randomScenes;
-  const std::size_t dielectrics = randomScenes / 4;
+  const std::size_t dielectrics = fresnel || options.dielectricF0 == 1.0 ? randomScenes / 4 : 0;
   const std::size_t total = scenes.size() + randomScenes + dielectrics;
   for (const CheckScene& check : scenes) {
     progress(out.scenes.size(), total);

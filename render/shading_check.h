@@ -96,8 +96,9 @@ struct ShadingCheck {
 inline constexpr std::size_t kFrameWidth = 1280;
 inline constexpr std::size_t kFrameHeight = 720;
 
-/// Draws and judges all scenes that the table's kind can shade. `other`, if any, is a table to compare with,
-/// of the same kind. Calls `progress(done, total)` in units of scenes. GlError where GL fails.
+/// Draws and judges all scenes that the table's kind can shade; where it or the other has no fresnel, those
+/// of f0 = 1. `other`, if any, is a table to compare with, of the same kind. Calls `progress(done, total)` in
+/// units of scenes. GlError where GL fails.
 ShadingCheck runShadingCheck(const ShaderTable& table, const ShaderTable* other,
                              const ShadingCheckOptions& options,
                              const std::function<void(std::size_t, std::size_t)>& progress);

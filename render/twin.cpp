@@ -79,7 +79,7 @@ Eigen::Vector3d shadeByTable(const Shading& shading, const SurfacePoint& point) 
   const TableEntry entry = fetchAt(shading.table, point);
   const bool usable = entry.invertible;  // else black, as the shader
   const Material& material = point.surface->material;
-  const double reflectance = material.f0 * *entry.norm + (1.0 - material.f0) * *entry.fresnel;
+  const double reflectance = material.f0 * *entry.norm + (1.0 - material.f0) * entry.fresnel.value_or(0.0);
   const Ltc lobe(usable ? entry.m : Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
   const Ltc cosine{Eigen::Matrix3d(Eigen::Matrix3d::Identity())};
   const Eigen::Matrix3d turn =
@@ -118,10 +118,12 @@ std::string_view horizonClippingName(HorizonClipping clipping) {
 
 Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& options) {
   const std::vector<std::string>& channels = table.info().channels;
-  for (const char* const needed : {"norm", "fresnel"}) {
-    if (std::find(channels.begin(), channels.end(), needed) == channels.end())
-      throw std::invalid_argument(fmt::format("the table has no {}", needed));
-  }
+  const auto need = [&](const char* channel) {
+    if (std::find(channels.begin(), channels.end(), channel) == channels.end())
+      throw std::invalid_argument(fmt::format("the table has no {}", channel));
+  };
+  need("norm");
+  if (scene.needsFresnel()) need("fresnel");
   for (const PolygonLight& light : scene.lights) {
     if (light.texture >= static_cast<int>(options.textures.size()))
       throw std::invalid_argument(

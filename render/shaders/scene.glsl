@@ -8,6 +8,7 @@
 //   ONE_SIDED, TWO_SIDED  lights that emit so
 //   TEXTURES  how many textures there are, 1 to 4, where a light has one
 //   LTC_NODES  an anisotropic table, of (nAlpha, nLambda); without it an isotropic one
+//   LTC_LOOKUP  the call of the table's own look-up, whose text stands behind ltc.glsl; without it, ltc.glsl's
 //   DISPLAY  colours for a screen, sRGB, instead of radiance
 #ifdef GL_ES
 precision highp int;
@@ -199,10 +200,15 @@ vec3 shade(Surface s, vec3 position, vec3 view) {
   if (s.radius > 0.0) tangent = cross(s.tangent, n);
 #endif
   mat3 frame = ltcFrame(n, s.turn.x * tangent + s.turn.y * cross(n, tangent));
+#else
+  mat3 frame = ltcFrame(n, view);
+#endif
+#if defined(LTC_LOOKUP)
+  LtcEntry entry = LTC_LOOKUP;
+#elif defined(LTC_NODES)
   LtcEntry entry = ltcFetchAnisotropic(lobes, LTC_NODES, roughness.x * roughness.x, roughness.y * roughness.y,
                                        frame * view);
 #else
-  mat3 frame = ltcFrame(n, view);
   LtcEntry entry = ltcFetch(matrixTable, amplitudeTable, roughness.x, dot(n, view));
 #endif
 

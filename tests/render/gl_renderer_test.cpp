@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -14,10 +16,12 @@
 #include <vector>
 
 #include "export/atomic_file.h"
+#include "export/formats.h"
 #include "render/picture_error.h"
 #include "render/scenes.h"
 #include "render/twin.h"
 #include "tests/render/gl.h"
+#include "tests/support/tailored.h"
 
 namespace ltcfit::test {
 namespace {
@@ -137,6 +141,61 @@ TEST_F(GlRendererTest, LightFromBehindAddsNothing) {
   EXPECT_EQ(lit(film), lit(renderTwin(scene, table.table)));
   scene.lights[0].twoSided = true;
   EXPECT_GT(lit(renderer.render(scene)), lit(film));
+}
+
+// Tables made for a scene, by their own look-ups; and what is out of their reach as at its ends.
+ShaderTable tailoredShaderTable(const std::string& name, FormatOptions options = {}) {
+  options.layout = Layout::kLean;
+  std::string folder = (std::filesystem::temp_directory_path() / "ltcfit-gl-table-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no folder " + folder);
+  const std::filesystem::path path(folder);
+  const ExportResult result = exportTable(tailoredTable(name), *findFormat("dds"), options, "t.dds");
+  for (const ExportFile& file : result.files) writeFileAtomically((path / file.name).string(), file.bytes);
+  ShaderTable table = loadShaderTable((path / result.files[0].name).string());
+  std::filesystem::remove_all(path);
+  return table;
+}
+
+TEST_F(GlRendererTest, AgreesWithTailoredTables) {
+  for (const char* name : {"isoRange", "isoRow", "anisoRange", "anisoOneAlpha", "anisoPair"}) {
+    const ShaderTable table = tailoredShaderTable(name);
+    ASSERT_TRUE(table.lookup) << name;
+    GlRenderer renderer(table);
+    std::printf("%s: %s\n", name, table.note.c_str());
+    for (const char* scene : {"rectangle", "ramp", "brushed-spheres", "plastic"}) {
+      const auto found = sceneNamed(scene, table);
+      if (!found) continue;
+      if (found->needsFresnel() && !table.hasFresnel()) {
+        EXPECT_THROW(renderer.render(*found), std::invalid_argument);
+        continue;
+      }
+      expectAgreement(table, renderer, *found, kFloor);
+    }
+    for (std::uint64_t i = 0; i < 4; ++i)
+      expectAgreement(table, renderer, randomScene(3, i, !table.isIsotropic(), 48), kFloor);
+  }
+}
+
+TEST_F(GlRendererTest, AgreesWithTailoredHalves) {
+  FormatOptions half;
+  half.precision = Precision::kHalf;
+  for (const char* name : {"isoRange", "isoRow", "anisoRange"}) {
+    const ShaderTable table = tailoredShaderTable(name, half);
+    GlRenderer renderer(table);
+    expectAgreement(table, renderer, sceneNamed("rectangle", table).value(), kFloor);
+  }
+}
+
+TEST_F(GlRendererTest, AWrongWarpIsSeen) {
+  ShaderTable table = tailoredShaderTable("isoRange");
+  TableInfo wrong = table.table.info();
+  wrong.axes[1].warp[0] = 0.5;  // 0.4 is right
+  table.lookup = makeShaderLookup(wrong, ShadingLanguage::kGlsl, "wrong");
+  GlRenderer renderer(table);
+  const Scene scene = smaller(sceneNamed("rectangle", table).value());
+  const double psnr = pictureError(renderer.render(scene), renderTwin(scene, table.table)).psnr;
+  std::printf("  %.1f dB\n", psnr);
+  EXPECT_LT(psnr, 60.0);
 }
 
 using Replacements = std::vector<std::pair<std::string, std::string>>;

@@ -14,6 +14,7 @@
 #include "export/formats.h"
 #include "export/json_table.h"
 #include "export/read_table.h"
+#include "tests/support/tailored.h"
 
 namespace ltcfit::test {
 namespace {
@@ -148,7 +149,7 @@ TEST_F(ShaderTableTest, AmplitudesComeFromAnotherTable) {
   const Table isotropic = dataTable(true);
   EXPECT_THROW(loadShaderTable(file, &isotropic), InputError);
   const Table half = without(table, "fresnel");
-  EXPECT_THROW(loadShaderTable(file, &half), InputError);
+  EXPECT_FALSE(loadShaderTable(file, &half).hasFresnel());
   const ShaderTable is = loadShaderTable(file, &table);
   for (std::size_t i = 0; i < table.nodeCount(); ++i) {
     const TableEntry read = is.table.entry(table.node(i));
@@ -161,14 +162,34 @@ TEST_F(ShaderTableTest, AmplitudesComeFromAnotherTable) {
   }
 }
 
-TEST_F(ShaderTableTest, OtherAxesAreRefused) {
+TEST_F(ShaderTableTest, OtherAxesHaveALookUpOfTheirOwn) {
+  for (const Tailored& t : tailoredTables()) {
+    const std::string file = path("t.json");
+    writeFileAtomically(file, tableToJson(t.table));
+    const std::vector<std::string> amplitudes = amplitudesOf(t.table.info());
+    if (amplitudes.empty() || amplitudes[0] != "norm") {
+      EXPECT_THROW(loadShaderTable(file), InputError) << t.name;
+      continue;
+    }
+    const ShaderTable is = loadShaderTable(file);
+    EXPECT_EQ(is.lookup.has_value(), t.name != "isoFull" && t.name != "anisoFull") << t.name;
+    EXPECT_EQ(is.hasFresnel(), amplitudes.size() == 2) << t.name;
+    EXPECT_EQ(is.table.data(), t.table.data()) << t.name;
+    if (!is.lookup) continue;
+    EXPECT_NE(is.note.find("the nearest end for other lobes"), std::string::npos) << is.note;
+    FormatOptions options;
+    options.layout = Layout::kLean;
+    options.precision = Precision::kHalf;
+    const ShaderTable half = loadShaderTable(write(t.table, "dds", options));
+    EXPECT_EQ(half.note.rfind("read texel for texel from DDS, half", 0), 0u) << half.note;
+  }
+}
+
+TEST_F(ShaderTableTest, AxesThatAShaderWouldSearchAreRefused) {
   const Table table = dataTable(true);
-  TableInfo info = table.info();
   for (std::size_t a : {0, 1}) {
-    info = table.info();
-    Axis& axis = info.axes[a];
-    axis = makeAxis(axis.name, axis.unit, AxisMap::kLinear, axis.size(), 0.0,
-                    a == 0 ? 0.5 * std::numbers::pi : 1.0, a == 0 ? 0.0 : 1e-4);
+    TableInfo info = table.info();
+    info.axes[a].map = AxisMap::kNone;
     const std::string file = path("t.json");
     writeFileAtomically(file, tableToJson(Table(info, table.data())));
     EXPECT_THROW(loadShaderTable(file), InputError) << a;

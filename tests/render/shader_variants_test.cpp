@@ -4,14 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 
+#include "export/shader_lookup.h"
 #include "render/shader_text.h"
+#include "tests/support/tailored.h"
 
 namespace ltcfit {
 namespace {
 
 const std::vector<ShaderVariantCost>& costs() {
-  static const std::vector<ShaderVariantCost> all = shaderVariantCosts();
+  static const std::vector<ShaderVariantCost> all = costsOf(shaderVariants());
   return all;
 }
 
@@ -57,6 +60,30 @@ TEST(ShaderVariants, ClippingCostsWhatItIsTakenFor) {
   EXPECT_LT(sphere, quad);
   // that of ltcFrame: edges have no cases
   EXPECT_EQ(costOf("isotropic, F0 = 1, quad above horizon").branches, 1);
+}
+
+TEST(ShaderVariants, ATablesOwnLookUpCostsLess) {
+  for (const test::Tailored& t : test::tailoredTables()) {
+    const std::vector<ShaderVariantCost> own = costsOf(lookupVariants(t.table.info()));
+    const ShaderCost& general = own[0].cost;
+    const ShaderCost& alone = own[1].cost;
+    std::printf("  %-16s %d fetches, %d operations (%d expanded); of ltc.glsl %d, %d (%d)\n", t.name.c_str(),
+                alone.fetches, alone.total() - alone.fetches, alone.expanded(), general.fetches,
+                general.total() - general.fetches, general.expanded());
+    EXPECT_EQ(alone.fetches, fetchesOf(t.table.info())) << t.name;
+    // of angles evenly spaced an isotropic look-up takes an atan, which ltcFetch has not
+    if (t.name != "isoLinear") {
+      EXPECT_LT(alone.expanded(), general.expanded()) << t.name;
+    }
+    EXPECT_EQ(lookupCost(t.table.info()).total(), alone.total());
+    EXPECT_EQ(alone.special.count("textureSize"), 0u) << t.name;
+    EXPECT_EQ(own.size(), amplitudesOf(t.table.info()).size() == 2 ? 4u : 3u) << t.name;
+  }
+  // no arithmetic but the mirrors and the inverse, and no angle
+  const ShaderCost theta = lookupCost(test::tailoredTable("anisoTheta").info());
+  EXPECT_EQ(theta.special.count("atan2"), 0u);
+  // one row of one node: nothing at all
+  EXPECT_EQ(lookupCost(test::tailoredTable("isoNode").info()).total(), 2);
 }
 
 TEST(ShaderVariants, TableHasALineEach) {

@@ -15,13 +15,6 @@ namespace {
 
 using Arguments = std::map<std::string, std::string>;
 
-std::string call(const ShaderLookup& lookup, const Arguments& arguments) {
-  std::string text;
-  for (const std::string& parameter : lookup.parameters)
-    text += (text.empty() ? "" : ", ") + arguments.at(parameter);
-  return fmt::format("{}({})", lookup.function, text);
-}
-
 std::string glslProgram(const ShaderLookup& lookup) {
   const Arguments names{
       {"matrixTable", "first"}, {"amplitudeTable", "second"}, {"table", "volume"}, {"roughness", "at.x"},
@@ -32,7 +25,7 @@ std::string glslProgram(const ShaderLookup& lookup) {
              "in vec2 at;\nin vec3 view;\nout vec4 colour;\nvoid main() {{\n"
              "  LtcEntry entry = {};\n"
              "  colour = vec4(entry.inverse * view, entry.norm + entry.fresnel);\n}}\n",
-             call(lookup, names));
+             lookup.call(names));
 }
 
 std::string hlslProgram(const ShaderLookup& lookup) {
@@ -45,7 +38,7 @@ std::string hlslProgram(const ShaderLookup& lookup) {
              "struct Surface {{ float2 at : A; float3 view : V; }};\n"
              "float4 main(Surface s) : SV_Target {{\n  LtcEntry entry = {};\n"
              "  return float4(mul(entry.inverse, s.view), entry.norm + entry.fresnel);\n}}\n",
-             call(lookup, names));
+             lookup.call(names));
 }
 
 void write(const std::filesystem::path& folder, ShadingLanguage language) {
@@ -69,7 +62,7 @@ void write(const std::filesystem::path& folder, ShadingLanguage language) {
     table += fmt::format(
         "    {{\"{}\", []([[maybe_unused]] const Texture& first, [[maybe_unused]] const Texture& second,\n"
         "        [[maybe_unused]] const ltcfit::test::LookupArguments& a) {{ return to({}); }}}},\n",
-        name, call(lookup, arguments));
+        name, lookup.call(arguments));
     writeFileAtomically((folder / (name + "." + ending)).string(),
                         glsl ? glslProgram(lookup) : hlslProgram(lookup));
   };
