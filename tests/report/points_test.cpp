@@ -7,7 +7,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "ggx/random.h"
 #include "tests/support/small_table.h"
+#include "tests/support/tailored.h"
 
 namespace ltcfit {
 namespace {
@@ -80,6 +82,51 @@ TEST(Points, AnisotropicIntervals) {
     EXPECT_GE(p.parameters.alphaX, 0.03);
     EXPECT_GE(p.parameters.alphaY, 0.05 * p.parameters.alphaX * (1 - 1e-12));
     EXPECT_LE(p.parameters.alphaY, p.parameters.alphaX);
+  }
+}
+
+// Bit for bit: figures of tables that were published with them stay.
+TEST(Points, FullTablesHaveThePointsThatTheyAlwaysHad) {
+  Random random(mixSeed(1, 5));
+  for (const Point& p : makePoints(test::smallTable(), PointSet::kOffGrid, 100, 0.0, 1)) {
+    const double root = 0.05 + random.uniform() * (1.0 - 0.05);
+    EXPECT_EQ(p.parameters.alphaX, root * root);
+    EXPECT_EQ(p.parameters.theta, unmapCoordinate(AxisMap::kSqrtOneMinusCos, random.uniform()));
+  }
+  Random other(mixSeed(1, 5));
+  for (const Point& p : makePoints(anisotropicTable(), PointSet::kExtreme, 100, 0.0, 1)) {
+    const double alpha = 0.03 + other.uniform() * (1.0 - 0.03);
+    const double lambda = 0.02 + other.uniform() * (0.2 - 0.02);
+    EXPECT_EQ(p.parameters.alphaX, alpha);
+    EXPECT_EQ(p.parameters.alphaY, alpha * lambda);
+    EXPECT_EQ(p.parameters.theta, 0.5 * std::numbers::pi * (0.85 + other.uniform() * (1.0 - 0.85)));
+    EXPECT_EQ(p.parameters.phi, 0.5 * std::numbers::pi * other.uniform());
+  }
+}
+
+TEST(Points, StayWhereATableIsMeant) {
+  for (const test::Tailored& t : test::tailoredTables()) {
+    const std::vector<Axis>& axes = t.table.info().axes;
+    for (PointSet set : {PointSet::kOffGrid, PointSet::kExtreme}) {
+      const std::vector<Point> points = makePoints(t.table, set, 50, 0.0, 1);
+      ASSERT_EQ(points.size(), 50u) << t.name;
+      for (const Point& p : points) {
+        const LobeParameters& q = p.parameters;
+        const std::vector<double> at = t.table.isIsotropic()
+                                           ? std::vector{q.theta, q.alphaX}
+                                           : std::vector{q.alphaX, q.alphaY / q.alphaX, q.theta, q.phi};
+        for (std::size_t a = 0; a < axes.size(); ++a) {
+          // rounding of the maps and of alpha_y / alpha_x
+          EXPECT_GE(at[a], axes[a].values.front() - 1e-12) << t.name << ' ' << axes[a].name;
+          EXPECT_LE(at[a], axes[a].values.back() + 1e-12) << t.name << ' ' << axes[a].name;
+        }
+      }
+    }
+  }
+  // sharp and grazing as far as it goes
+  for (const Point& p : makePoints(test::tailoredTable("isoRange"), PointSet::kExtreme, 10, 0.0, 1)) {
+    EXPECT_NEAR(p.parameters.alphaX, 0.09, 1e-12);
+    EXPECT_NEAR(p.parameters.theta, 1.3, 1e-12);
   }
 }
 
