@@ -21,18 +21,19 @@ bool sameNodes(const Table& a, const Table& b) {
   return std::equal(
       a.info().axes.begin(), a.info().axes.end(), b.info().axes.begin(), b.info().axes.end(),
       [](const Axis& x, const Axis& y) {
-        return x.size() == y.size() && x.map == y.map &&
+        return x.size() == y.size() && x.map == y.map && x.warp == y.warp &&
                (x.map == AxisMap::kNone ? x.values == y.values : x.low == y.low && x.high == y.high);
       });
 }
 
-// The middle of the cell that begins at a node, as a shader addresses it; nothing at the upper ends.
+// The middle of the cell that begins at a node, as a shader addresses it; nothing at the upper ends of axes
+// of several nodes.
 std::optional<LobeParameters> cellCentre(const Table& table, const std::vector<std::size_t>& node) {
   std::array<double, 4> value{};
   for (std::size_t a = 0; a < node.size(); ++a) {
     const Axis& axis = table.info().axes[a];
-    if (node[a] + 1 == axis.size()) return std::nullopt;
-    value[a] = axis.valueFromTexel(static_cast<double>(node[a]) + 0.5);
+    if (axis.size() > 1 && node[a] + 1 == axis.size()) return std::nullopt;
+    value[a] = axis.size() == 1 ? axis.values[0] : axis.valueFromTexel(static_cast<double>(node[a]) + 0.5);
   }
   if (table.isIsotropic()) return LobeParameters{value[1], value[1], value[0], 0.0};
   return LobeParameters{value[0], value[0] * value[1], value[2], value[3]};

@@ -32,7 +32,8 @@ bool sameLayout(const Table& a, const Table& b) {
   for (std::size_t i = 0; i < a.info().axes.size(); ++i) {
     const Axis& x = a.info().axes[i];
     const Axis& y = b.info().axes[i];
-    if (x.size() != y.size() || x.map != y.map || x.low != y.low || x.high != y.high) return false;
+    if (x.size() != y.size() || x.map != y.map || x.low != y.low || x.high != y.high || x.warp != y.warp)
+      return false;
   }
   return true;
 }
