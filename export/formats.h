@@ -24,7 +24,7 @@ struct FormatOptions {
   DdsHeader ddsHeader = DdsHeader::kDx10;
   Ktx2Compression ktx2Compression = Ktx2Compression::kZstd;
   std::string prefix;                  ///< of identifiers in source files; empty for the default
-  std::size_t coefficientBytes = 320;  ///< of the Chebyshev form, kCoefficientBytes each
+  std::size_t coefficientBytes = 320;  ///< of the Chebyshev form; 160 halves
 };
 
 /// What a format can do, for messages and lists.

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLayer = 2.0;
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
-constexpr std::size_t kCheckedNodes = 129;
+constexpr std::size_t kCheckedNodes = 65;
 constexpr double kSmallestWidth = 0.01;
 
 // sum of c_i T_i(t)

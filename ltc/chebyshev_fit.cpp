@@ -17,6 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kTerms = kChebyshevRows * kChebyshevColumns;  // of one function
+constexpr auto kUnknowns = static_cast<Eigen::Index>(kChebyshevFunctions * kTerms);
 constexpr std::size_t kShapeFunctions = 4;
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
@@ -30,6 +31,10 @@ constexpr double kAmplitudeWeight = 4.0;
 
 // A term whose part that no chosen term can take is smaller than this of its square is left alone.
 constexpr double kDependent = 1e-7;
+// A node says six numbers; with as many coefficients the form would do what it likes between them.
+constexpr std::size_t kCoefficientsPerNode = 3;
+// How far from the ends of alpha and theta the outer nodes may be: published tables were clamped there.
+constexpr double kEndSlack = 0.01;
 // Terms of one row that may be chosen in one step: the odd ones alone may be worth nothing.
 constexpr std::size_t kLookAhead = 3;
 
@@ -152,8 +157,8 @@ VectorXd termsAt(const ChebyshevPoint& point) {
 
 // Minimise c^T matrix c - 2 c^T right; kTerms unknowns for each function, in their order.
 struct NormalEquations {
-  MatrixXd matrix = MatrixXd::Zero(kMostCoefficients, kMostCoefficients);
-  VectorXd right = VectorXd::Zero(kMostCoefficients);
+  MatrixXd matrix = MatrixXd::Zero(kUnknowns, kUnknowns);
+  VectorXd right = VectorXd::Zero(kUnknowns);
 
   // sums over nodes (columns of `terms`) of weight value_a value_b and of goal value_a
   void add(Eigen::Index a, Eigen::Index b, const MatrixXd& terms, const VectorXd& weight) {
@@ -255,7 +260,7 @@ VectorXd roundedSolution(const NormalEquations& equations, const std::vector<Eig
     throw std::invalid_argument("the table's nodes are too few for that many coefficients");
   const MatrixXd upper = factors.matrixU();
   const VectorXd right = factors.matrixL().solve(VectorXd(equations.right(order)));
-  VectorXd solution = VectorXd::Zero(kMostCoefficients);
+  VectorXd solution = VectorXd::Zero(kUnknowns);
   VectorXd x = VectorXd::Zero(upper.cols());
   for (Eigen::Index k = upper.cols(); k-- > 0;) {
     const Eigen::Index after = upper.cols() - k - 1;
@@ -302,6 +307,13 @@ void forRowsOfNodes(const Table& table, const Function& f) {
         "the Chebyshev form is for isotropic tables (axes theta, alpha); this one has four axes");
   if (!(table.info().alphaFloor > 0.0 && table.info().alphaFloor < 1.0))
     throw std::invalid_argument("the Chebyshev form needs an alpha floor between 0 and 1");
+  const std::vector<double>& theta = table.info().axes[0].values;
+  const std::vector<double>& alpha = table.info().axes[1].values;
+  if (theta.front() > kEndSlack || theta.back() < kHalfPi - kEndSlack || alpha.front() > kEndSlack ||
+      alpha.back() < 1.0 - kEndSlack)
+    throw std::invalid_argument(
+        "the Chebyshev form needs a table over all of alpha and theta: beyond its nodes polynomials go where "
+        "they like");
   const std::vector<double> heights = cellWidths(table.info().axes[0], AxisMap::kSqrtOneMinusCos);
   const std::vector<double> widths = cellWidths(table.info().axes[1], AxisMap::kSqrt);
   for (std::size_t row = 0; row < heights.size(); ++row) {
@@ -330,6 +342,10 @@ ChebyshevForm fitChebyshev(const Table& table, const ChebyshevOptions& options) 
     throw std::invalid_argument(std::to_string(options.coefficients) + " coefficients: need " +
                                 std::to_string(kLeastCoefficients) + " to " +
                                 std::to_string(kMostCoefficients));
+  if (options.coefficients > kCoefficientsPerNode * table.nodeCount())
+    throw std::invalid_argument(std::to_string(options.coefficients) + " coefficients are too many for " +
+                                std::to_string(table.nodeCount()) + " nodes; " +
+                                std::to_string(kCoefficientsPerNode * table.nodeCount()) + " at most");
   NormalEquations equations;
   forRowsOfNodes(table, [&](const std::vector<Node>& nodes) { addNodes(nodes, equations); });
   const std::vector<Eigen::Index> chosen = chooseTerms(equations, options.coefficients);
@@ -338,7 +354,12 @@ ChebyshevForm fitChebyshev(const Table& table, const ChebyshevOptions& options) 
   form.alphaFloor = table.info().alphaFloor;
   form.provenance = table.info().provenance;
   setRows(roundedSolution(equations, chosen, options.round), chosen, form);
-  checkChebyshev(form);
+  try {
+    checkChebyshev(form);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(error.what()) + " (of " + std::to_string(options.coefficients) +
+                                " coefficients; another number may do)");
+  }
   return form;
 }
 

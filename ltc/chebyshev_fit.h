@@ -9,12 +9,13 @@ namespace ltcfit {
 
 struct ChebyshevOptions {
   /// Coefficients in all, for the six functions together; from kLeastCoefficients to kMostCoefficients.
-  std::size_t coefficients = 192;
+  std::size_t coefficients = 160;
   /// What the coefficients are rounded to; none: they stay as they are.
   std::function<double(double)> round;
 };
 inline constexpr std::size_t kLeastCoefficients = 48;
-inline constexpr std::size_t kMostCoefficients = kChebyshevFunctions * kChebyshevRows * kChebyshevColumns;
+/// More follow the scatter of the sharpest fits at grazing view, until a lobe of them is turned inside out.
+inline constexpr std::size_t kMostCoefficients = 320;
 
 /// How far a form is from a table, at its nodes from alpha 0.002 on.
 struct ChebyshevDifference {
@@ -34,9 +35,10 @@ ChebyshevDifference chebyshevDifference(const ChebyshevForm& form, const Table& 
 /// What is minimised is the squared shift of the lobe to first order, plus the squared errors of norm and
 /// Fresnel. Terms are chosen one row's next one to three at a time, those that lower the sum most for each
 /// coefficient, with all others free; rounding goes backwards through the triangular system, so that what
-/// one loses the next ones take up. Throws std::invalid_argument for an anisotropic table, one without norm
-/// and Fresnel, an alpha floor of 0, entries off the plane of incidence or without an inverse, lobes that
-/// lean below the horizon, and too few coefficients to keep det M > 0 everywhere (checkChebyshev).
+/// one loses the next ones take up. Throws std::invalid_argument for an anisotropic table, one over a part of
+/// alpha and theta, without norm and Fresnel, an alpha floor of 0, entries off the plane of incidence or
+/// without an inverse, lobes that lean below the horizon, more coefficients than three a node, and too few
+/// coefficients to keep det M > 0 everywhere (checkChebyshev).
 ChebyshevForm fitChebyshev(const Table& table, const ChebyshevOptions& options = {});
 
 }  // namespace ltcfit

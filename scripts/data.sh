@@ -9,4 +9,5 @@ for kind in iso aniso; do
   build/ltcfit export -q data/ltc_$kind.json -o data/ltc_$kind.h
   build/ltcfit export -q data/ltc_$kind.json -o data/ltc_$kind.ktx2 --precision half
 done
+build/ltcfit export -q data/ltc_iso.json --format chebyshev -o data/ltc_iso
 (cd data && sha256sum ltc_* > SHA256SUMS)

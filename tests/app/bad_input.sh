@@ -55,6 +55,18 @@ expect "--min-alpha" score good.json --min-alpha -0.5
 expect "no point is left" score good.json --points extreme --min-alpha 0.9
 for f in truncated count nan null axis version missing; do expect "$f.json" export $f.json -o x.h; done
 expect "no/such" export good.json -o no/such/x.h
+expect "--coefficients is for --format chebyshev" export good.json -o x.h --coefficients 200
+for bytes in 94 642 many -1; do expect "--coefficients" export good.json --format chebyshev -o x --coefficients $bytes; done
+expect "holds float32 only" export good.json --format chebyshev -o x --precision half
+expect "one layout only" export good.json --format chebyshev -o x --layout channels
+expect "160 coefficients are too many for 16 nodes; 48 at most" export good.json --format chebyshev -o x
+expect "several files" export "$source_dir/data/ltc_iso.json" --format chebyshev -o /dev/stdout
+expect "for isotropic tables" export "$source_dir/data/ltc_aniso.json" --format chebyshev -o x
+sed 's/"turn"/"torn"/' "$source_dir/data/ltc_iso.cheb.json" > torn.json
+expect "torn.json: functions.turn is missing" score torn.json
+cp "$source_dir/data/ltc_iso.cheb.json" again.cheb.json
+expect "would overwrite this table" export again.cheb.json --format chebyshev -o again
+rm torn.json again.cheb.json
 expect "is a folder" export good.json -o .
 expect "--output is required" export good.json
 expect "--size '0x0x0'" fit iso -o x.json --size 0x0x0

@@ -18,5 +18,9 @@ PY
     cmp ltc_$kind.ktx2 "$source_dir/data/ltc_$kind.ktx2" || fail "data/ltc_$kind.ktx2"
   "$ltcfit" export -q "$source_dir/data/ltc_$kind.json" --format h -o ltc_$kind.h && cmp ltc_$kind.h "$source_dir/data/ltc_$kind.h" || fail "data/ltc_$kind.h"
 done
+"$ltcfit" export -q "$source_dir/data/ltc_iso.json" --format chebyshev -o ltc_iso || fail "the polynomials"
+for extension in json glsl hlsl h js; do
+  cmp ltc_iso.cheb.$extension "$source_dir/data/ltc_iso.cheb.$extension" || fail "data/ltc_iso.cheb.$extension"
+done
 (cd "$source_dir/data" && sha256sum --quiet -c SHA256SUMS) || fail "data/SHA256SUMS"
 finish

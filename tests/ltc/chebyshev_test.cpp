@@ -180,26 +180,37 @@ TEST(Chebyshev, RefusesTablesWithoutPlace) {
   EXPECT_THROW(fitChebyshev(good, options), std::invalid_argument);
   options.coefficients = kMostCoefficients + 1;
   EXPECT_THROW(fitChebyshev(good, options), std::invalid_argument);
+  options.coefficients = 60;
+  EXPECT_NO_THROW(fitChebyshev(good, options));
+  EXPECT_THROW(fitChebyshev(tableOfChebyshev(sampleForm(), 4), options), std::invalid_argument);
 
   TableInfo info = good.info();
   info.channels[6] = "m01";
-  EXPECT_THROW(fitChebyshev(Table(info, good.data())), std::invalid_argument);
+  EXPECT_THROW(fitChebyshev(Table(info, good.data()), options), std::invalid_argument);
+  info = good.info();
+  info.axes[1] = makeAxis("alpha", "1", AxisMap::kSqrt, 9, 0.1, 1.0);
+  EXPECT_THROW(fitChebyshev(Table(info, good.data()), options), std::invalid_argument);
+  info.axes[1] = makeAxis("alpha", "1", AxisMap::kSqrt, 9, 0.0, 0.5);
+  EXPECT_THROW(fitChebyshev(Table(info, good.data()), options), std::invalid_argument);
+  info = good.info();
+  info.axes[0] = makeAxis("theta", "rad", AxisMap::kSqrtOneMinusCos, 9, 0.0, 1.2);
+  EXPECT_THROW(fitChebyshev(Table(info, good.data()), options), std::invalid_argument);
   info = good.info();
   info.alphaFloor = 0.0;
-  EXPECT_THROW(fitChebyshev(Table(info, good.data())), std::invalid_argument);
+  EXPECT_THROW(fitChebyshev(Table(info, good.data()), options), std::invalid_argument);
   std::vector<float> data = good.data();
   data[2] = 0.0f;  // m11
-  EXPECT_THROW(fitChebyshev(Table(good.info(), data)), std::invalid_argument);
+  EXPECT_THROW(fitChebyshev(Table(good.info(), data), options), std::invalid_argument);
   data = good.data();
   data[7 * 40 + 4] *= -1.0f;  // m22
-  EXPECT_THROW(fitChebyshev(Table(good.info(), data)), std::invalid_argument);
+  EXPECT_THROW(fitChebyshev(Table(good.info(), data), options), std::invalid_argument);
 
   info = good.info();
   info.axes = {makeAxis("alpha", "1", AxisMap::kLinear, 2, 0.0, 1.0),
                makeAxis("lambda", "1", AxisMap::kLinear, 2, 0.0, 1.0),
                makeAxis("theta", "rad", AxisMap::kLinear, 2, 0.0, kHalfPi),
                makeAxis("phi", "rad", AxisMap::kLinear, 2, 0.0, kHalfPi)};
-  EXPECT_THROW(fitChebyshev(Table(info, {good.data().begin(), good.data().begin() + 7 * 16})),
+  EXPECT_THROW(fitChebyshev(Table(info, {good.data().begin(), good.data().begin() + 7 * 16}), options),
                std::invalid_argument);
 }
 

@@ -81,6 +81,9 @@ using ltcfit::test::Mat3;
 using ltcfit::test::ShaderEntry;
 using ltcfit::test::Vec3;
 
+// behind what it takes LtcEntry from
+#include "data/ltc_iso.cheb.hlsl"
+
 float3 from(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
@@ -131,4 +134,16 @@ constinit const ltcfit::test::Shader ltcfit::test::kHlsl{
     [](const ShaderEntry& e, Vec3 f0, Vec3 f90) {
       return to(ltcFresnel({from(e.inverse), e.norm, e.fresnel}, from(f0), from(f90)));
     },
-    kLookups};
+    kLookups,
+    [](float roughness, float nDotV) { return to(ltc_iso_fetch(roughness, nDotV)); },
+    [](const std::vector<std::array<float, 4>>& shape, const std::vector<std::array<float, 2>>& amplitude,
+       float roughness, float nDotV) {
+      float4 s[ltc_iso_rows];
+      float2 a[ltc_iso_rows];
+      for (std::size_t j = 0; j < ltc_iso_rows; ++j) {
+        s[j] = {shape[j][0], shape[j][1], shape[j][2], shape[j][3]};
+        a[j] = {amplitude[j][0], amplitude[j][1]};
+      }
+      return to(ltc_iso_fetchCollapsed(s, a, roughness, nDotV));
+    },
+    ltc_iso_rows};

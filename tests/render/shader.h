@@ -51,6 +51,11 @@ struct Shader {
   float (*arc)(float m2);
   Vec3 (*fresnel)(const ShaderEntry& entry, Vec3 f0, Vec3 f90);
   std::span<const Lookup> lookups;
+  /// data/ltc_iso.cheb.glsl and .hlsl; how many rows the collapsed arrays have.
+  ShaderEntry (*polynomials)(float roughness, float nDotV);
+  ShaderEntry (*collapsed)(const std::vector<std::array<float, 4>>& shape,
+                           const std::vector<std::array<float, 2>>& amplitude, float roughness, float nDotV);
+  int rows;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Shader& shader) {

@@ -1,9 +1,10 @@
 # The shader snippets compile: GLSL 3.30 and ES 3.00, HLSL to valid SPIR-V; isotropic, anisotropic, by
-# proxy spheres, and all together; and the generated look-ups of single tables.
+# proxy spheres, polynomials, and all together; and the generated look-ups of single tables.
 validator=$1
 spirv_val=$2  # empty: the SPIR-V is not checked
 shaders=$3
 lookups=$4  # NAME.glsl and NAME.hlsl, whole but for the files of $3
+data=$5  # where ltc_iso.cheb.glsl and .hlsl lie
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -13,6 +14,8 @@ uniform sampler3D lobes;
 uniform sampler2D spheres;
 uniform sampler2D picture;
 uniform vec3 corners[LTC_MAX_VERTICES];
+uniform vec4 shape[ltc_iso_rows];
+uniform vec2 amplitude[ltc_iso_rows];
 in vec3 position;
 in vec3 normal;
 in vec3 tangent;
@@ -52,13 +55,17 @@ glsl_textured='LtcEntry lobe = ltcFetch(matrixTable, amplitudeTable, 0.4, dot(no
                                around * (corners[2] - position), around * (corners[3] - position), picture, 0.5,
                                512.0);
 '
+glsl_polynomials='LtcEntry even = ltc_iso_fetch(0.3, dot(normal, view));
+  LtcEntry rough = ltc_iso_fetchCollapsed(shape, amplitude, 0.8, dot(normal, view));
+  colour.rgb += abs(quad(even.inverse, ltcFrame(normal, view))) * ltcFresnel(rough, vec3(0.04), vec3(1.0));
+'
 hlsl_head='Texture2D matrixTable;
 Texture2D amplitudeTable;
 Texture3D lobes;
 Texture2D spheres;
 Texture2D picture;
 SamplerState bilinear;
-cbuffer Light { float4 corners[LTC_MAX_VERTICES]; };
+cbuffer Light { float4 corners[LTC_MAX_VERTICES]; float4 shape[ltc_iso_rows]; float2 amplitude[ltc_iso_rows]; };
 struct Surface { float3 position : P; float3 normal : N; float3 tangent : T; float3 view : V; };
 float quad(float3x3 inverse, float3x3 frame, float3 position) {
   return ltcQuad(inverse, mul(frame, corners[0].xyz - position), mul(frame, corners[1].xyz - position),
@@ -95,6 +102,11 @@ hlsl_textured='LtcEntry lobe = ltcFetch(matrixTable, amplitudeTable, bilinear, 0
                                mul(around, corners[1].xyz - s.position), mul(around, corners[2].xyz - s.position),
                                mul(around, corners[3].xyz - s.position), picture, bilinear, 0.5, 512.0);
 '
+hlsl_polynomials='LtcEntry even = ltc_iso_fetch(0.3, dot(s.normal, s.view));
+  LtcEntry rough = ltc_iso_fetchCollapsed(shape, amplitude, 0.8, dot(s.normal, s.view));
+  colour.rgb += abs(quad(even.inverse, ltcFrame(s.normal, s.view), s.position)) *
+                ltcFresnel(rough, (float3)0.04, (float3)1.0);
+'
 
 # glsl VERSION BODY, hlsl BODY: whether a fragment shader with that body compiles; what is said goes to log.
 # The files are included once, or `times`.
@@ -102,7 +114,7 @@ times=1
 include() {
   local i file
   for ((i = 0; i < times; ++i)); do
-    for file in ltc ltc_proxy ltc_textured; do cat "$shaders/$file.$1" || exit 1; done
+    for file in "$shaders"/{ltc,ltc_proxy,ltc_textured} "$data/ltc_iso.cheb"; do cat "$file.$1" || exit 1; done
   done
 }
 glsl() {
@@ -128,7 +140,8 @@ fail() {
 }
 
 for version in "330 core" "300 es"; do
-  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_proxy" "$glsl_textured" "$glsl_isotropic $glsl_anisotropic $glsl_proxy"; do
+  for body in "$glsl_isotropic" "$glsl_anisotropic" "$glsl_proxy" "$glsl_textured" "$glsl_polynomials" \
+    "$glsl_isotropic $glsl_anisotropic $glsl_proxy $glsl_polynomials"; do
     glsl "$version" "$body" || fail "GLSL $version does not compile"
   done
   # without these two the above would prove nothing
@@ -137,15 +150,16 @@ for version in "330 core" "300 es"; do
     "GLSL $version: a wrong texture compiles"
   glsl "$version" "colour = ltcFrame(normal, view);" && fail "GLSL $version: a wrong type compiles"
 done
-for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_proxy" "$hlsl_textured" "$hlsl_isotropic $hlsl_anisotropic $hlsl_proxy"; do
+for body in "$hlsl_isotropic" "$hlsl_anisotropic" "$hlsl_proxy" "$hlsl_textured" "$hlsl_polynomials" \
+  "$hlsl_isotropic $hlsl_anisotropic $hlsl_proxy $hlsl_polynomials"; do
   hlsl "$body" || fail "HLSL does not compile"
 done
 hlsl "LtcEntry e = ltcFetch(matrixTable, 0.4, 1.0);" && fail "HLSL: a wrong call compiles"
 hlsl "colour = ltcFrame(s.normal, s.view);" && fail "HLSL: a wrong type compiles"
 times=2
-glsl "330 core" "$glsl_isotropic $glsl_proxy $glsl_textured" || fail "GLSL 330 core, included twice, does not compile"
-glsl "300 es" "$glsl_isotropic $glsl_proxy $glsl_textured" || fail "GLSL 300 es, included twice, does not compile"
-hlsl "$hlsl_isotropic $hlsl_proxy $hlsl_textured" || fail "HLSL, included twice, does not compile"
+glsl "330 core" "$glsl_isotropic $glsl_proxy $glsl_textured $glsl_polynomials" || fail "GLSL 330 core, included twice, does not compile"
+glsl "300 es" "$glsl_isotropic $glsl_proxy $glsl_textured $glsl_polynomials" || fail "GLSL 300 es, included twice, does not compile"
+hlsl "$hlsl_isotropic $hlsl_proxy $hlsl_textured $hlsl_polynomials" || fail "HLSL, included twice, does not compile"
 count=0
 for file in "$lookups"/*.glsl; do
   name=${file%.glsl}
