@@ -4,16 +4,12 @@
 #include <png.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <csetjmp>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <new>
 
 #include "export/atomic_file.h"
 #include "export/exr.h"
+#include "export/png_reader.h"
 
 namespace ltcfit {
 namespace {
@@ -50,60 +46,6 @@ LinearPicture pictureOfExr(std::string_view bytes, const std::string& name) {
   return picture;
 }
 
-struct PngInput {
-  std::string_view rest;
-  std::array<char, 256> message;
-};
-
-// Errors of libpng leave it by longjmp, which destructors do not survive: the functions that set the jump
-// have no object with one.
-struct PngReader {
-  explicit PngReader(PngInput& input)
-      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, onError, [](png_structp, const char*) {})),
-        info(png != nullptr ? png_create_info_struct(png) : nullptr) {
-    if (info == nullptr) throw std::bad_alloc();
-    png_set_read_fn(png, &input, onRead);
-  }
-  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
-
-  [[noreturn]] static void onError(png_structp png, const char* what) {
-    PngInput& input = *static_cast<PngInput*>(png_get_error_ptr(png));
-    std::snprintf(input.message.data(), input.message.size(), "%s", what);
-    png_longjmp(png, 1);
-  }
-  static void onRead(png_structp png, png_bytep out, std::size_t size) {
-    PngInput& input = *static_cast<PngInput*>(png_get_io_ptr(png));
-    if (size > input.rest.size()) png_error(png, "cut off");
-    std::memcpy(out, input.rest.data(), size);
-    input.rest.remove_prefix(size);
-  }
-
-  png_structp png;
-  png_infop info;
-};
-
-bool readHeader(png_structp png, png_infop info) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_read_info(png, info);
-  return true;
-}
-
-// As RGBA of 8 or 16 bits, whatever the file has.
-bool readRows(png_structp png, png_infop info, png_bytepp rows, std::size_t stride) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_expand(png);
-  png_set_gray_to_rgb(png);
-  png_set_filler(png, 0xFFFF, PNG_FILLER_AFTER);
-  png_set_interlace_handling(png);
-  png_read_update_info(png, info);
-  if (png_get_rowbytes(png, info) != stride) png_error(png, "rows of an unexpected length");
-  png_read_image(png, rows);
-  png_read_end(png, nullptr);
-  return true;
-}
-
 // The linear value of each of `count` steps. libpng's own conversion of 16 bits takes a power of 2.2 for
 // sRGB and is off by 2 %.
 std::vector<double> linearValues(const PngReader& reader, std::size_t count) {
@@ -135,7 +77,7 @@ LinearPicture parsePng(std::string_view bytes, const std::string& name) {
   PngInput input{bytes, {}};
   PngReader reader(input);
   const auto damaged = [&] { throw InputError(fmt::format("{}: PNG: {}", name, input.message.data())); };
-  if (!readHeader(reader.png, reader.info)) damaged();
+  if (!readPngHeader(reader.png, reader.info)) damaged();
   const std::size_t width = png_get_image_width(reader.png, reader.info);
   const std::size_t height = png_get_image_height(reader.png, reader.info);
   checkSize(width, height, name);
@@ -146,7 +88,7 @@ LinearPicture parsePng(std::string_view bytes, const std::string& name) {
   std::vector<png_byte> values(height * stride);
   std::vector<png_bytep> rows(height);
   for (std::size_t r = 0; r < height; ++r) rows[r] = &values[r * stride];
-  if (!readRows(reader.png, reader.info, rows.data(), stride)) damaged();
+  if (!readPngRows(reader.png, reader.info, rows.data(), stride)) damaged();
 
   const std::vector<double> linear = linearValues(reader, deep ? 65536 : 256);
   LinearPicture picture{width, height, {}};
