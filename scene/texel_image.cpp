@@ -1,16 +1,13 @@
 #include "scene/texel_image.h"
 
 #include <fmt/format.h>
-#include <stb_image.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <memory>
 
 #include "export/atomic_file.h"
 #include "export/picture.h"
+#include "export/png_reader.h"
+#include "scene/jpeg_reader.h"
 
 namespace ltcfit {
 namespace {
@@ -19,26 +16,61 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view kJpegStart = "\xff\xd8\xff"sv;
 
-std::size_t bigEndian32(std::string_view bytes, std::size_t at) {
-  std::size_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
+void checkSize(std::size_t width, std::size_t height, double most, std::string_view bytes,
+               const std::string& name, std::size_t maxTexels) {
+  if (width > kMaxTexelSide || height > kMaxTexelSide)
+    throw InputError(
+        fmt::format("{} has {} x {} texels; a side may have {}", name, width, height, kMaxTexelSide));
+  if (width * height > maxTexels)
+    throw InputError(fmt::format("{} has {} x {} texels: with it the scene's images have more than {}", name,
+                                 width, height, kMaxTexels));
+  // what a header says beyond that is not there, and would be decoded as padding for minutes
+  if (static_cast<double>(width * height) > most)
+    throw InputError(fmt::format("{} claims {} x {} texels, which its {} bytes cannot hold", name, width,
+                                 height, bytes.size()));
 }
 
-// The most texels that so many bytes can be, by the formats' own best compression: what a header says beyond
-// that is not there, and would be decoded as padding for minutes.
-double mostTexels(std::string_view bytes) {
-  const double length = static_cast<double>(bytes.size());
-  // 8 x 8 coefficients by one bit of a progressive scan, in each of up to two scans that a decoder can do
-  // with
-  constexpr double kJpegTexelsPerByte = 1024.0;
-  if (!isPng(bytes)) return kJpegTexelsPerByte * length;
-  // deflate's 1032 : 1, on texels of depth x channels bits
-  constexpr double kDeflateRatio = 1032.0;
-  const int depth = static_cast<unsigned char>(bytes[24]);
-  const int colours = static_cast<unsigned char>(bytes[25]);
-  const int channels = colours == 2 ? 3 : colours == 4 ? 2 : colours == 6 ? 4 : 1;
-  return kDeflateRatio * length * 8.0 / std::max(1, depth * channels);
+TexelImage imageOf(std::size_t width, std::size_t height) {
+  TexelImage image;
+  image.width = width;
+  image.height = height;
+  image.texels.resize(width * height);
+  return image;
+}
+
+TexelImage decodePng(std::string_view bytes, const std::string& name, std::size_t maxTexels) {
+  PngInput input{bytes, {}};
+  PngReader reader(input);
+  // libpng's own limits would answer without the numbers
+  png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  const auto damaged = [&] {
+    throw InputError(fmt::format("{} is damaged: {}", name, input.message.data()));
+  };
+  if (!readPngHeader(reader.png, reader.info)) damaged();
+  const std::size_t width = png_get_image_width(reader.png, reader.info);
+  const std::size_t height = png_get_image_height(reader.png, reader.info);
+  // deflate's 1032 : 1
+  const int bits = png_get_bit_depth(reader.png, reader.info) * png_get_channels(reader.png, reader.info);
+  const double most = 1032.0 * 8.0 * static_cast<double>(bytes.size()) / bits;
+  checkSize(width, height, most, bytes, name, maxTexels);
+  TexelImage image = imageOf(width, height);
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < height; ++y) rows.push_back(image.texels[y * width].data());
+  if (!readPngRows(reader.png, reader.info, rows.data(), 4 * width, true)) damaged();
+  return image;
+}
+
+TexelImage decodeJpeg(std::string_view bytes, const std::string& name, std::size_t maxTexels) {
+  JpegReader reader(bytes);
+  const auto damaged = [&] { throw InputError(fmt::format("{} is damaged: {}", name, reader.message())); };
+  if (!reader.readHeader()) damaged();
+  // 8 x 8 texels by one bit of a progressive scan, at least two scans
+  constexpr double kTexelsPerByte = 256.0;
+  checkSize(reader.width(), reader.height(), kTexelsPerByte * static_cast<double>(bytes.size()), bytes, name,
+            maxTexels);
+  TexelImage image = imageOf(reader.width(), reader.height());
+  if (!reader.readRows(image.texels[0].data())) damaged();
+  return image;
 }
 
 double radicalInverse(unsigned base, unsigned n) {
@@ -59,44 +91,9 @@ std::string unreadableKind(std::string_view bytes) {
 }
 
 TexelImage decodeTexels(std::string_view bytes, const std::string& name, std::size_t maxTexels) {
-  if (!isPng(bytes) && !bytes.starts_with(kJpegStart))
-    throw InputError(name + " is neither a PNG nor a JPEG");
-  if (bytes.size() > std::size_t{std::numeric_limits<int>::max()})
-    throw InputError(name + " is larger than 2 GiB");
-  const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int length = static_cast<int>(bytes.size());
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  const auto refuse = [&](std::size_t w, std::size_t h) {
-    if (w > kMaxTexelSide || h > kMaxTexelSide)
-      throw InputError(fmt::format("{} has {} x {} texels; a side may have {}", name, w, h, kMaxTexelSide));
-    if (w * h > maxTexels)
-      throw InputError(fmt::format("{} has {} x {} texels: with it the scene's images have more than {}",
-                                   name, w, h, kMaxTexels));
-    if (static_cast<double>(w * h) > mostTexels(bytes))
-      throw InputError(
-          fmt::format("{} claims {} x {} texels, which its {} bytes cannot hold", name, w, h, bytes.size()));
-  };
-  if (isPng(bytes)) {
-    constexpr std::size_t kHeaderEnd = 33;
-    if (bytes.size() < kHeaderEnd || bytes.substr(12, 4) != "IHDR")
-      throw InputError(name + " is damaged: no IHDR");
-    // stb's own limit would answer without the numbers
-    refuse(bigEndian32(bytes, 16), bigEndian32(bytes, 20));
-  }
-  if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0 || width < 1 || height < 1)
-    throw InputError(fmt::format("{} is damaged: {}", name, stbi_failure_reason()));
-  refuse(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-      stbi_load_from_memory(data, length, &width, &height, &channels, 4), &stbi_image_free);
-  if (!pixels) throw InputError(fmt::format("{} is damaged: {}", name, stbi_failure_reason()));
-  TexelImage image;
-  image.width = static_cast<std::size_t>(width);
-  image.height = static_cast<std::size_t>(height);
-  image.texels.resize(image.width * image.height);
-  std::memcpy(image.texels.data(), pixels.get(), 4 * image.texels.size());
-  return image;
+  if (isPng(bytes)) return decodePng(bytes, name, maxTexels);
+  if (bytes.starts_with(kJpegStart)) return decodeJpeg(bytes, name, maxTexels);
+  throw InputError(name + " is neither a PNG nor a JPEG");
 }
 
 TexelImage uniformTexels() {

@@ -50,7 +50,9 @@ std::string base64(const std::string& bytes) {
 }
 
 GltfBuilder::GltfBuilder() {
-  json = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", GltfJson::array()}}}}};
+  json = {{"asset", {{"version", "2.0"}}},
+          {"scene", 0},
+          {"scenes", GltfJson::array({{{"nodes", GltfJson::array()}}})}};
 }
 
 int GltfBuilder::push(const char* key, const GltfJson& value) {
@@ -92,7 +94,7 @@ void GltfBuilder::quad(int material, const std::array<float, 4>& uv) {
 std::string GltfBuilder::glb() const {
   GltfJson all = json;
   const std::string binary = padded(data, '\0');
-  if (!data.empty()) all["buffers"] = {{{"byteLength", data.size()}}};
+  if (!data.empty()) all["buffers"] = GltfJson::array({{{"byteLength", data.size()}}});
   const std::string text = padded(all.dump(), ' ');
   std::string body = littleEndian32(text.size()) + "JSON" + text;
   if (!data.empty()) body += littleEndian32(binary.size()) + std::string("BIN\0", 4) + binary;
@@ -102,8 +104,8 @@ std::string GltfBuilder::glb() const {
 std::string GltfBuilder::gltf() const {
   GltfJson all = json;
   if (!data.empty())
-    all["buffers"] = {
-        {{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}};
+    all["buffers"] = GltfJson::array(
+        {{{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}});
   return all.dump();
 }
 

@@ -215,7 +215,7 @@ TEST(GltfRobustness, DamagedImages) {
       std::string damaged = bytes;
       for (int k = 0; k < 4; ++k)
         damaged[static_cast<std::size_t>(random.uniform() * static_cast<double>(bytes.size()))] =
-            static_cast<char>(random.uniform() * 256.0);
+            static_cast<char>(static_cast<int>(random.uniform() * 256.0));
       decode(damaged);
     }
   }
