@@ -1,0 +1,3 @@
+// tinygltf once more, so that the sanitizers and the fuzzer see into it.
+#define TINYGLTF_IMPLEMENTATION
+#include <tiny_gltf.h>
