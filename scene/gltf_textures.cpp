@@ -192,6 +192,7 @@ std::size_t GltfTextures::forEachTexel(const GltfMaterial& material, const std::
         fmt::format("its materials have more than {} texels, each counted by itself", kMaxCountedTexels));
 
   std::vector<double> totals;
+  totals.reserve(groups.size());
   for (const Group& group : groups)
     totals.push_back(std::accumulate(group.areas.begin(), group.areas.end(), 0.0));
   // a prime near the golden section of 2^32: pairs of texels fill the plane evenly
