@@ -63,12 +63,16 @@ LobeParameters lookedUp(const Table& table, const std::vector<std::size_t>& node
   return {at[0], at[0] * at[1], at[2], at[3]};
 }
 
-// With those of norm and fresnel that it lacks and the other has.
-Table withAmplitudes(const Table& table, const Table& amplitudes) {
-  TableInfo info = table.info();
-  std::vector<std::string> added;
+// Of norm and fresnel what the one lacks and the other has.
+std::vector<std::string> missingIn(const Table& table, const Table& amplitudes) {
+  std::vector<std::string> missing;
   for (const char* const channel : {"norm", "fresnel"})
-    if (!has(table, channel) && has(amplitudes, channel)) added.emplace_back(channel);
+    if (!has(table, channel) && has(amplitudes, channel)) missing.emplace_back(channel);
+  return missing;
+}
+
+Table withAmplitudes(const Table& table, const Table& amplitudes, const std::vector<std::string>& added) {
+  TableInfo info = table.info();
   info.channels.insert(info.channels.end(), added.begin(), added.end());
   std::vector<float> data;
   data.reserve(table.nodeCount() * info.channels.size());
@@ -114,11 +118,10 @@ bool ShaderTable::hasFresnel() const {
 ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
   TableFile file = readTableFile(path);
   try {
-    const bool lacks = !has(file.table, "norm") || !has(file.table, "fresnel");
-    const bool mended = lacks && amplitudes != nullptr &&
-                        amplitudes->isIsotropic() == file.table.isIsotropic() &&
-                        (has(*amplitudes, "norm") || has(file.table, "norm"));
-    if (mended) file.table = withAmplitudes(file.table, *amplitudes);
+    std::vector<std::string> added;
+    if (amplitudes != nullptr && amplitudes->isIsotropic() == file.table.isIsotropic())
+      added = missingIn(file.table, *amplitudes);
+    if (!added.empty()) file.table = withAmplitudes(file.table, *amplitudes, added);
     if (!has(file.table, "norm")) throw std::invalid_argument("has no norm to shade with");
     const bool standard = hasShaderAxes(file.table) && has(file.table, "fresnel");
     std::optional<ShaderLookup> lookup;
@@ -126,7 +129,7 @@ ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
     const Packing packing = !standard                  ? packingLean(file.table.info())
                             : file.table.isIsotropic() ? packing2017()
                                                        : packingOfRows();
-    if (!mended && file.textures && hasShaderLayout(*file.textures, packing)) {
+    if (added.empty() && file.textures && hasShaderLayout(*file.textures, packing)) {
       const PackedTable& packed = *file.textures;
       const bool half = packed.images[0].precision == Precision::kHalf;
       std::string note = fmt::format("read texel for texel from {}, {}{}", file.format,
@@ -136,7 +139,9 @@ ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
     const PackedTable packed = pack(file.table, packing, Precision::kFloat);
     return {shaderTextures(packed), unpack(packed),
             fmt::format("converted from {} to float32 textures{}{}", file.format,
-                        mended ? "; norm and Fresnel of another table" : "", limitsText(file.table)),
+                        added.empty() ? std::string()
+                                      : fmt::format("; {} of another table", fmt::join(added, " and ")),
+                        limitsText(file.table)),
             std::move(lookup)};
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: {}", path, error.what()));

@@ -110,7 +110,7 @@ TEST_F(ShaderTableTest, TheLayoutOf2017NeedsNoDescription) {
   EXPECT_THROW(loadShaderTable(file), InputError);
   const ShaderTable mended = loadShaderTable(file, &table);
   EXPECT_EQ(mended.textures[0].values, packed.images[0].values);
-  EXPECT_NE(mended.note.find("norm and Fresnel of another table"), std::string::npos);
+  EXPECT_NE(mended.note.find("norm and fresnel of another table"), std::string::npos);
 }
 
 TEST_F(ShaderTableTest, EverythingElseIsPackedInFloat) {
