@@ -151,15 +151,16 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
   auto a = std::make_shared<PlanFitArguments>();
   addPlanFitOptions(*fit, *a);
   fit->callback([a, fit, &status] {
-    if (fit->get_subcommands().empty()) {
-      status.exitCode = fitPlanCommand(*fit, *a);
-    } else if (fit->count_all() > 1 + fit->get_subcommands()[0]->count_all()) {
-      throw std::invalid_argument("fit: options of --plan and --scene do not go with a subcommand");
-    }
+    if (fit->get_subcommands().empty()) status.exitCode = fitPlanCommand(*fit, *a);
   });
   addIso(*fit, status);
   addAniso(*fit, status);
   addEntry(*fit, status);
+  for (CLI::App* const subcommand : fit->get_subcommands({})) {
+    for (CLI::Option* const option : fit->get_options()) {
+      if (option != fit->get_help_ptr()) subcommand->excludes(option);
+    }
+  }
 }
 
 }  // namespace ltcfit::app

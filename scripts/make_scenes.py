@@ -245,6 +245,22 @@ def lobby():
         "lights": ["polygon", "disk"], "light_sides": ["one"], "views": [0, 85]}, indent=1) + "\n").encode()
 
 
+def satin():
+    """The middle of the roughness axis, which most painted and worn metal has."""
+    return (json.dumps({
+        "format": "ltc-scene", "version": 1, "name": "satin",
+        "materials": [{"name": "satin metal", "roughness": [0.3, 0.7], "f0": 0.6}],
+        "lights": ["polygon"], "light_sides": ["one"]}, indent=1) + "\n").encode()
+
+
+def brushed():
+    """Brushed metals of several grits and strengths."""
+    return (json.dumps({
+        "format": "ltc-scene", "version": 1, "name": "brushed",
+        "materials": [{"name": "brushed metal", "roughness": [0.3, 0.5], "anisotropy": [0.4, 0.7], "f0": 0.6}],
+        "lights": ["polygon"], "light_sides": ["one"]}, indent=1) + "\n").encode()
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
@@ -253,7 +269,8 @@ def main():
     for name, data in {"lamp.glb": lamp(), "discs.gltf": discs_gltf, "discs.png": discs_png,
                        "strengths.gltf": strengths(), "metal_rough.gltf": steel_gltf, "metal_rough.png": steel_png,
                        "metal_rough.jpg": steel_jpg, "plain.gltf": plain(), "clearcoat.gltf": clearcoat(),
-                       "emissive.gltf": emissive(), "lobby.json": lobby()}.items():
+                       "emissive.gltf": emissive(), "lobby.json": lobby(), "satin.json": satin(),
+                       "brushed.json": brushed()}.items():
         (folder / name).write_bytes(data)
 
 

@@ -166,6 +166,13 @@ PlannedTable planTable(const LobeDistribution& distribution, double share, const
   t.reasons.push_back(fmt::format("{} of the scene's lobes are {}, by surface", percent(share),
                                   distribution.isotropic ? "isotropic" : "anisotropic"));
   for (const AxisRange& range : ranges) explainRange(range, &t.reasons);
+  t.reasons.emplace_back(
+      distribution.isotropic
+          ? "matrix: 4 coefficients, Minv over its middle element, which the plane of incidence's "
+            "mirror leaves; no inversion in the shader"
+          : "matrix: all 9 coefficients of M, inverted in the shader");
+  t.reasons.emplace_back(
+      "halves: floats only where halves alone cost half of the bound, which the fit measures");
   const auto has = [&](const char* name) {
     return std::find(t.amplitudes.begin(), t.amplitudes.end(), name) != t.amplitudes.end();
   };

@@ -203,7 +203,7 @@ expect "not expected: --unknown" fit iso -o x.json --unknown
 expect "--output is required" fit iso
 expect "no/such" fit iso -o no/such/x.json
 expect "no/such" fit iso -o x.json --report no/such/x.csv
-expect "subcommand is required" fit
+expect "need --plan or --scene" fit
 expect "subcommand is required"
 expect "unknown option .--foo" --foo
 expect "unknown command .nonsense." nonsense x
