@@ -65,15 +65,17 @@ class Reader {
       }
     }
     double total = 0.0;
-    bool known = true;
+    bool compressed = false;
     for (const auto& [material, surfaces] : shiny)
       for (const GltfSurface* surface : *surfaces) {
         total += surface->area;
-        known = known && !surface->compressed;
+        compressed = compressed || surface->compressed;
       }
-    known = known && total > 0.0;
+    const bool known = !compressed && total > 0.0;
     if (!known && !shiny.empty())
-      use_.notes.push_back("Areas are not known (compressed geometry, or none): all materials count alike.");
+      use_.notes.push_back(fmt::format(
+          "{}: all materials count alike.",
+          compressed ? "Areas are not known (compressed geometry)" : "The surfaces have no area"));
     for (const auto& [material, surfaces] : shiny) {
       double area = 0.0;
       for (const GltfSurface* surface : *surfaces) area += surface->area;

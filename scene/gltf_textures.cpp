@@ -161,9 +161,11 @@ std::size_t GltfTextures::forEachTexel(const GltfMaterial& material, const std::
   }
   std::vector<Group> groups = groupsOf(material, slots);
   std::size_t most = 0;
+  std::size_t ofImages = 0;
   for (Group& group : groups) {
     const std::string uncovered = cover(group, surfaces);
     most = std::max(most, group.texels());
+    if (group.largest().assumed.empty()) ofImages = std::max(ofImages, group.texels());
     for (std::size_t i = 0; i < group.slots.size(); ++i) {
       const LoadedTexture& texture = group.textures[i];
       const char* const what = kSlotNames[group.slots[i]];
@@ -227,7 +229,7 @@ std::size_t GltfTextures::forEachTexel(const GltfMaterial& material, const std::
     run += weight;
   }
   count(last, run);
-  return most;
+  return ofImages;
 }
 
 }  // namespace ltcfit

@@ -41,8 +41,9 @@ class GltfTextures {
   /// all texels counted, where texture coordinates cannot be read; triangles count alike where their areas
   /// are all 0. Slots with the same mapping of texture coordinates are looked up together, at the texels of
   /// the largest of their images; those of unlike mappings as if they were independent. Returns how many
-  /// texels were counted, 0 without slots, and appends a sentence for each texture to `reasons`. InputError
-  /// for images as decodeTexels and imageBytes, for texture indices out of range, and past kMaxCountedTexels.
+  /// texels were counted, 0 without slots and where no image could be read, and appends a sentence for each
+  /// texture to `reasons`. InputError for images as decodeTexels and imageBytes, for texture indices out of
+  /// range, and past kMaxCountedTexels.
   std::size_t forEachTexel(const GltfMaterial& material, const std::vector<TextureSlot>& slots,
                            const std::vector<const GltfSurface*>& surfaces, std::vector<std::string>& reasons,
                            const std::function<void(const SlotTexels&, double area)>& count);

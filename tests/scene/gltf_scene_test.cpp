@@ -188,6 +188,7 @@ TEST(GltfScene, ImagesOfOtherKindsAreAssumed) {
     const SceneUse use = read(builder);
     const MaterialUse& m = use.materials.at(0);
     EXPECT_TRUE(says(m.reasons, "could not be read (KTX2)")) << all(m.reasons);
+    EXPECT_EQ(m.texels, 0u);  // none was looked up
     EXPECT_EQ(m.lobes.front().alphaX, 0.0);
     EXPECT_NEAR(m.lobes.back().alphaX, 0.25, kRounding);
     // of half the roughness, half is below a quarter
@@ -195,6 +196,20 @@ TEST(GltfScene, ImagesOfOtherKindsAreAssumed) {
     for (const LobeUse& lobe : m.lobes) below += lobe.alphaX < 0.0625 ? lobe.weight : 0.0;
     EXPECT_NEAR(below, 0.5, 0.01);
   }
+}
+
+TEST(GltfScene, AssumedImagesCountNoTexels) {
+  // beside one that is read, of another mapping
+  GltfBuilder builder;
+  const int read16 = builder.texture(halves(16), kClamp);
+  const int assumed = builder.push("textures", {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});
+  builder.quad(builder.material(
+      {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", read16}}}, {"metallicFactor", 0}}},
+       {"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", assumed}}}}}}}}));
+  const MaterialUse m = read(builder).materials.at(0);
+  EXPECT_TRUE(says(m.reasons, "could not be read (WebP)")) << all(m.reasons);
+  EXPECT_EQ(m.texels, 256u);
+  EXPECT_NEAR(sum(m.lobes), 1.0, kRounding);
 }
 
 TEST(GltfScene, CompressedGeometryCountsAlike) {
@@ -220,7 +235,7 @@ TEST(GltfScene, CompressedGeometryCountsAlike) {
     EXPECT_EQ(use.materials[0].area, 0.5);
     EXPECT_EQ(use.materials[0].texels, 256u);
     EXPECT_TRUE(says(use.materials[0].reasons, "compressed")) << all(use.materials[0].reasons);
-    EXPECT_TRUE(says(use.notes, "count alike")) << all(use.notes);
+    EXPECT_TRUE(says(use.notes, "compressed geometry): all materials count alike")) << all(use.notes);
   }
 }
 
@@ -232,6 +247,7 @@ TEST(GltfScene, NoAreaCountsAlike) {
   const SceneUse use = read(builder);
   ASSERT_EQ(use.materials.size(), 2u);
   EXPECT_EQ(use.materials[0].area, 0.5);
+  EXPECT_TRUE(says(use.notes, "The surfaces have no area: all materials count alike.")) << all(use.notes);
   EXPECT_EQ(use.materials[1].lobes.size(), 1u);  // coverage is known all the same
 }
 
