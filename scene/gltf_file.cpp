@@ -9,7 +9,9 @@
 
 #include "export/atomic_file.h"
 #include "scene/gltf_json.h"
+#include "scene/gltf_types.h"
 #include "scene/gltf_uri.h"
+#include "scene/texel_image.h"
 
 namespace ltcfit {
 namespace {
@@ -59,6 +61,19 @@ Chunks chunksOfGlb(std::string_view bytes) {
   }
   if (chunks.json.empty()) throw InputError("the GLB has no JSON chunk");
   return chunks;
+}
+
+// Says what a file is that is neither a GLB nor an object of JSON.
+void refuseOtherFiles(std::string_view bytes) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  if (start != std::string_view::npos && bytes[start] == '{') return;
+  std::string kind = unreadableKind(bytes);
+  if (bytes.starts_with("\x89PNG")) kind.assign("PNG");
+  if (bytes.starts_with("\xff\xd8\xff")) kind.assign("JPEG");
+  throw InputError(fmt::format("{}neither glTF nor a scene description",
+                               kind.empty() ? std::string() : fmt::format("a picture ({}), ", kind)));
 }
 
 Json& arrayOf(Json& json, const char* key) {
@@ -193,6 +208,7 @@ bool isMeshoptCompressed(const tinygltf::BufferView& view) {
 
 GltfFile parseGltf(std::string_view bytes, const std::filesystem::path& folder) {
   const Chunks chunks = isGlb(bytes) ? chunksOfGlb(bytes) : Chunks{bytes, {}};
+  if (!isGlb(bytes)) refuseOtherFiles(bytes);
   Json all = parseGltfJson(chunks.json);
   if (!all.is_object() || !all.contains("asset") || !all["asset"].is_object())
     throw InputError("neither glTF (no 'asset') nor a scene description (no \"format\": \"ltc-scene\")");
@@ -209,6 +225,7 @@ GltfFile parseGltf(std::string_view bytes, const std::filesystem::path& folder) 
   Buffers buffers;
   resolveBuffers(json, chunks.binary, folder, buffers);
   withoutDraco(json);
+  checkMaterialTypes(arrayOf(json, "materials"));
   all = nullptr;
 
   tinygltf::TinyGLTF loader;

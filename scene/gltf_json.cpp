@@ -8,6 +8,7 @@
 
 #include "export/atomic_file.h"
 #include "scene/gltf_file.h"
+#include "scene/json_text.h"
 
 namespace ltcfit {
 namespace {
@@ -77,18 +78,9 @@ Json parseGltfJson(std::string_view text) {
     throw InputError(fmt::format("the JSON has {} bytes; up to {} are read", text.size(), kMaxGltfJson));
   // what some exporters pad the chunk of a GLB with
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
-  // the parser takes a zero for the end
-  if (text.find('\0') != std::string_view::npos) throw InputError("a zero byte within the JSON");
   Limits limits;
   Json::sax_parse(text, &limits);
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    throw InputError(
-        fmt::format("no valid JSON at byte {} of {} (cut off or damaged?)", error.byte, text.size()));
-  } catch (const Json::exception& error) {
-    throw InputError(error.what());
-  }
+  return parseJsonText(text);
 }
 
 }  // namespace ltcfit

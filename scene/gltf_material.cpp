@@ -60,7 +60,7 @@ class Fields {
       throw InputError(fmt::format("{}: {} has no index", where_, key));
     use.texture = info.Get("index").GetNumberAsInt();
     if (use.texture < 0) throw InputError(fmt::format("{}: {} has index {}", where_, key, use.texture));
-    if (info.Get("texCoord").IsInt()) use.texCoord = info.Get("texCoord").GetNumberAsInt();
+    readSet(info, key, use);
     if (info.Get("extensions").IsObject() && info.Get("extensions").Has("KHR_texture_transform"))
       readTransform(info.Get("extensions").Get("KHR_texture_transform"), use);
     return use;
@@ -88,8 +88,19 @@ class Fields {
     };
     pair("offset", use.offset);
     pair("scale", use.scale);
-    if (transform.Get("rotation").IsNumber()) use.rotation = transform.Get("rotation").GetNumberAsDouble();
-    if (transform.Get("texCoord").IsInt()) use.texCoord = transform.Get("texCoord").GetNumberAsInt();
+    if (transform.Has("rotation")) {
+      if (!transform.Get("rotation").IsNumber())
+        throw InputError(fmt::format("{}: KHR_texture_transform: rotation is not a number", where_));
+      use.rotation = transform.Get("rotation").GetNumberAsDouble();
+    }
+    readSet(transform, "KHR_texture_transform", use);
+  }
+
+  void readSet(const Value& object, const char* of, TextureUse& use) const {
+    if (!object.Has("texCoord")) return;
+    if (!object.Get("texCoord").IsInt())
+      throw InputError(fmt::format("{}: texCoord of {} is not an integer", where_, of));
+    use.texCoord = object.Get("texCoord").GetNumberAsInt();
   }
 
   const Value& object_;

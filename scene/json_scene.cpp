@@ -13,6 +13,7 @@
 #include "export/atomic_file.h"
 #include "export/json_fields.h"
 #include "scene/gltf_uri.h"
+#include "scene/json_text.h"
 #include "scene/lobe_histogram.h"
 #include "scene/texel_image.h"
 
@@ -272,10 +273,12 @@ SceneUse sceneFromJson(std::string_view bytes, const std::filesystem::path& fold
     throw InputError(
         fmt::format("a description of {} bytes; up to {} are read", bytes.size(), kMaxDescription));
   SceneUse use;
+  parseJsonText(bytes);  // for its messages
   readJson(bytes, "description", [&](const Json& json) {
     const JsonFields file(json, "");
     rejectUnknown(json, "the description",
-                  {"format", "version", "name", "materials", "lights", "light_sides", "views"});
+                  {"$schema", "format", "version", "name", "materials", "lights", "light_sides", "views"});
+    if (file.has("$schema")) file.text("$schema");  // for editors
     if (file.text("format") != "ltc-scene") throw InputError("format is not 'ltc-scene'");
     if (file.get("version") != Json(1)) throw InputError("version is not 1");
     if (file.has("name")) use.name = file.text("name");

@@ -15,6 +15,7 @@ bool isSceneDescription(std::string_view bytes);
 /// Reads a description; data/scenes/ltc-scene.schema.json is the same as a JSON Schema.
 ///
 ///   {"format": "ltc-scene", "version": 1,
+///    "$schema": "ltc-scene.schema.json",    optional, for editors; not read
 ///    "name": "lobby",                       optional; the file's otherwise
 ///    "materials": [                         at least one
 ///      {"name": "floor",

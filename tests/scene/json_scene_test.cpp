@@ -197,6 +197,16 @@ TEST(JsonScene, MistakesAreNamed) {
   refused(file("materials", {good, {{"name", "b"}, {"roughness", 1}, {"area", 2}}}), "all or none");
 }
 
+TEST(JsonScene, SchemaMayBeNamed) {
+  Json json{{"$schema", "ltc-scene.schema.json"},
+            {"format", "ltc-scene"},
+            {"version", 1},
+            {"materials", {{{"name", "a"}, {"roughness", 0.5}}}}};
+  EXPECT_EQ(read(json).materials.size(), 1u);
+  json["$schema"] = 1;
+  refused(json, "$schema is not a string");
+}
+
 TEST(JsonScene, SchemaKnowsTheSameFields) {
   const Json schema = Json::parse(readFile(kScenes + "ltc-scene.schema.json"));
   const auto keys = [](const Json& object) {
@@ -204,8 +214,9 @@ TEST(JsonScene, SchemaKnowsTheSameFields) {
     for (const auto& [key, value] : object.items()) out.insert(key);
     return out;
   };
-  EXPECT_EQ(keys(schema["properties"]), (std::set<std::string>{"format", "version", "name", "materials",
-                                                               "lights", "light_sides", "views"}));
+  EXPECT_EQ(keys(schema["properties"]),
+            (std::set<std::string>{"$schema", "format", "version", "name", "materials", "lights",
+                                   "light_sides", "views"}));
   EXPECT_EQ(
       keys(schema["$defs"]["material"]["properties"]),
       (std::set<std::string>{"name", "roughness", "anisotropy", "alpha_x", "alpha_y", "f0", "f90", "area"}));
