@@ -59,11 +59,16 @@ Provenance provenanceOf(const PlanFitArguments& a, const ScenePlan& plan, const 
   p.tool = "ltcfit";
   p.toolVersion = LTCFIT_VERSION;
   p.seed = r.seed;
-  p.command = fmt::format("ltcfit fit {}",
-                          a.plan.empty() ? "--scene " + nameOf(a.scene.scene) : "--plan " + nameOf(a.plan));
-  if (r.maxError > 0.0) p.command += fmt::format(" --max-error {}", r.maxError);
-  if (r.maxBytes > 0) p.command += fmt::format(" --max-bytes {}", r.maxBytes);
-  p.command += fmt::format(" --margin {} --alpha-floor {} --seed {}", r.margin, r.alphaFloor, r.seed);
+  p.command =
+      a.plan.empty() ? "ltcfit fit --scene " + nameOf(a.scene.scene) : "ltcfit fit --plan " + nameOf(a.plan);
+  if (a.plan.empty()) {  // a plan says the rest itself
+    if (r.maxError > 0.0) p.command += fmt::format(" --max-error {}", r.maxError);
+    if (r.maxBytes > 0) p.command += fmt::format(" --max-bytes {}", r.maxBytes);
+    p.command += fmt::format(" --margin {} --alpha-floor {}", r.margin, r.alphaFloor);
+    if (!a.scene.views.empty())
+      p.command += fmt::format(" --views {} {}", a.scene.views[0], a.scene.views[1]);
+    p.command += fmt::format(" --seed {}", r.seed);
+  }
   const TableKind kind = isotropic ? TableKind::kIsotropic : TableKind::kAnisotropic;
   p.options = {{"scene", plan.scene},
                {"fitter", std::string(fitterName(kDefaultFitter))},
@@ -79,13 +84,11 @@ Provenance provenanceOf(const PlanFitArguments& a, const ScenePlan& plan, const 
 }
 
 // The table for every scene, as it would be shipped: read, or fitted.
-Table fullTable(const PlanFitArguments& a, const LobeDistribution& distribution,
-                const InterpolationModelOptions& options) {
+Table fullTable(const PlanFitArguments& a, const std::vector<Table>& given,
+                const LobeDistribution& distribution, const InterpolationModelOptions& options) {
   std::optional<Table> table;
-  for (const std::string& path : a.full) {
-    Table read = readTable(path);
-    if (read.isIsotropic() == distribution.isotropic) table = std::move(read);
-  }
+  for (const Table& t : given)
+    if (t.isIsotropic() == distribution.isotropic) table = t;
   if (!table) {
     Progress progress("full table", a.scene.quiet);
     table = fitAxes(fullAxes(distribution.isotropic, options.alphaFloor), distribution.isotropic,
@@ -157,6 +160,7 @@ OrderedJson toJson(const Made& made, const PlannedTable& planned, const std::str
   OrderedJson json{{"output", output},
                    {"kind", kindName(planned.distribution)},
                    {"kept", made.table.kept},
+                   {"max_error", planned.maxError},
                    {"nodes", made.table.step.design.nodes},
                    {"bytes", made.table.step.bytes},
                    {"precision", precisionName(made.table.precision)},
@@ -181,8 +185,9 @@ void printText(const Made& made, const PlannedTable& planned, double bound) {
   if (made.verification) printVerification(*made.verification, bound);
 }
 
-Made make(const PlanFitArguments& a, const ScenePlan& plan, const LobeDistribution& distribution,
-          std::size_t maxBytes) {
+Made make(const PlanFitArguments& a, const std::vector<Table>& given, const ScenePlan& plan,
+          const PlannedTable& planned, std::size_t maxBytes) {
+  const LobeDistribution& distribution = planned.distribution;
   const Stopwatch watch;
   Made made;
   const InterpolationModelOptions options =
@@ -190,7 +195,7 @@ Made make(const PlanFitArguments& a, const ScenePlan& plan, const LobeDistributi
   const std::vector<AxisRange> ranges =
       axisRanges(distribution, plan.request.alphaFloor, plan.request.margin);
   TailorOptions tailor;
-  tailor.maxError = plan.request.maxError;
+  tailor.maxError = planned.maxError;
   tailor.maxBytes = maxBytes;
   tailor.model = options;
   {
@@ -203,7 +208,7 @@ Made make(const PlanFitArguments& a, const ScenePlan& plan, const LobeDistributi
   if (a.verify && made.table.kept) {
     VerificationOptions verify;
     verify.seed = static_cast<std::uint64_t>(plan.request.seed) + 1000;
-    const Table full = fullTable(a, distribution, options);
+    const Table full = fullTable(a, given, distribution, options);
     Progress progress("verify", a.scene.quiet);
     made.verification = verifyTable(
         shippedTable(*made.table.table, made.table.precision), full, distribution, tailor.maxError, options,
@@ -212,27 +217,34 @@ Made make(const PlanFitArguments& a, const ScenePlan& plan, const LobeDistributi
   return made;
 }
 
-int refuse(const Made& made, const PlannedTable& planned, const ScenePlan& plan, std::size_t maxBytes) {
+void complain(const Made& made, const PlannedTable& planned, std::size_t maxBytes) {
   const std::string within = maxBytes > 0 ? fmt::format(" within {}", bytesText(maxBytes)) : std::string();
-  if (!made.table.table) {
-    fmt::print(stderr, "ltcfit: {} table: nothing could be fitted{}: no table was written\n",
-               kindName(planned.distribution), within);
+  const double bound = planned.maxError;
+  const char* const kind = kindName(planned.distribution);
+  if (made.table.kept) {
+    fmt::print(
+        stderr,
+        "ltcfit: {} table: at look-ups that nothing was fitted to the mean error is {:.6f}, above {:g}: no "
+        "table was written\n",
+        kind, made.verification->tailored.mean, bound);
+  } else if (!made.table.table) {
+    fmt::print(stderr, "ltcfit: {} table: there is none{}: no table was written\n", kind, within);
   } else {
     fmt::print(stderr,
                "ltcfit: {} table: a mean error of {:g} is out of reach{}; the best one tried has {:.2g} ({} "
                "nodes, {}): no table was written\n",
-               kindName(planned.distribution), plan.request.maxError, within, made.table.step.error.mean,
-               nodesText(made.table.step.design.nodes), bytesText(made.table.step.bytes));
+               kind, bound, within, made.table.step.error.mean, nodesText(made.table.step.design.nodes),
+               bytesText(made.table.step.bytes));
   }
-  return kExitQuality;
 }
 
 }  // namespace
 
 int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
-  if (a.plan.empty() == a.scene.scene.empty())
-    throw std::invalid_argument(
-        "fit: need --plan or --scene (one of them), or a subcommand; --help lists all");
+  if (!a.plan.empty() && !a.scene.scene.empty())
+    throw std::invalid_argument("fit: --plan and --scene exclude each other");
+  if (a.plan.empty() && a.scene.scene.empty())
+    throw std::invalid_argument("fit: need --plan or --scene, or a subcommand; --help lists all");
   if (a.output.empty()) throw std::invalid_argument("--output is required");
   if (!a.full.empty() && !a.verify) throw std::invalid_argument("--full needs --verify");
   if (!a.plan.empty()) {
@@ -244,48 +256,56 @@ int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
   checkWritable(a.output);
   const ScenePlan plan = a.plan.empty() ? planOf(command, a.scene) : planFromJson(readFile(a.plan), a.plan);
   if (plan.tables.empty()) {
-    fmt::print(stderr, "ltcfit: {} has no specular lobe: no table is needed, none was written\n", plan.scene);
+    fmt::print(stderr, "ltcfit: {} has no specular lobes to make tables for: none was written\n", plan.scene);
     return kExitOk;
   }
+  std::vector<Table> given;
+  for (const std::string& path : a.full) given.push_back(readTable(path));
   const std::vector<std::string> outputs = outputsOf(a.output, plan);
   for (const std::string& output : outputs) {
     for (const std::string& input : {a.plan, a.scene.scene})
       if (!input.empty() && isSameFile(output, input)) throw InputError(output + ": is what is read");
     checkWritable(output);
   }
-  OrderedJson json{
-      {"scene", plan.scene}, {"max_error", plan.request.maxError}, {"tables", OrderedJson::array()}};
+  OrderedJson json{{"scene", plan.scene}, {"tables", OrderedJson::array()}};
   std::size_t left = plan.request.maxBytes;
   int exitCode = kExitOk;
   std::vector<std::pair<std::string, std::string>> files;
-  for (std::size_t i = 0; i < plan.tables.size(); ++i) {
+  for (std::size_t i = 0; i < plan.tables.size() && exitCode == kExitOk; ++i) {
     const PlannedTable& planned = plan.tables[i];
-    const Made made = make(a, plan, planned.distribution, left);
-    if (!made.table.kept) return refuse(made, planned, plan, left);
+    const double bound = planned.maxError;
+    // where bytes alone count, the plan has shared them out
+    const std::size_t maxBytes = bound == 0.0 ? planned.maxBytes : left;
+    const Made made = make(a, given, plan, planned, maxBytes);
+    const bool verified = !made.verification || bound == 0.0 || made.verification->holds(bound);
+    if (a.scene.json) json["tables"].push_back(toJson(made, planned, outputs[i], bound));
+    if (!made.table.kept || !verified) {
+      complain(made, planned, maxBytes);
+      exitCode = kExitQuality;
+      break;
+    }
+    if (!a.scene.json && !a.scene.quiet) printText(made, planned, bound);
     if (left > 0) left = left > made.table.step.bytes ? left - made.table.step.bytes : 1;
     TableInfo info = made.table.table->info();
     info.provenance = provenanceOf(a, plan, made.table, planned.distribution.isotropic);
     files.emplace_back(outputs[i], tableToJson(Table(info, made.table.table->data())));
-    if (made.verification && plan.request.maxError > 0.0 && !made.verification->holds(plan.request.maxError))
-      exitCode = kExitQuality;
-    if (a.scene.json) {
-      json["tables"].push_back(toJson(made, planned, outputs[i], plan.request.maxError));
-    } else if (!a.scene.quiet) {
-      printText(made, planned, plan.request.maxError);
-    }
   }
-  // both or none
-  for (const auto& [path, text] : files) writeFileAtomically(path, text);
+  if (exitCode == kExitOk)
+    for (const auto& [path, text] : files) writeFileAtomically(path, text);
   if (a.scene.json) {
     fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
-  } else if (!a.scene.quiet) {
+  } else if (!a.scene.quiet && exitCode == kExitOk) {
     for (const std::string& output : outputs) fmt::print("wrote {}\n", output);
   }
   return exitCode;
 }
 
 void addPlanFitOptions(CLI::App& command, PlanFitArguments& a) {
-  command.add_option("--plan", a.plan, "Fit the tables of a plan (ltcfit scene -o)")->type_name("plan.json");
+  command
+      .add_option("--plan", a.plan,
+                  "Fit the tables of a plan (ltcfit scene -o). Read are its bounds and its distributions of "
+                  "lobes;\nsizes are found anew, by measuring")
+      ->type_name("plan.json");
   command
       .add_option("--scene", a.scene.scene,
                   "The same straight from a scene, as ltcfit scene reads it, by the options below")

@@ -34,7 +34,9 @@ void addPlanOptions(CLI::App& command, SceneArguments& a) {
   command
       .add_option("--max-error", a.request.maxError,
                   "Bound of the mean difference between look-ups and direct fits over the scene's lobes and\n"
-                  "views: RMS radiance under random lights of radiance 1; 1e-5..1")
+                  "views: RMS radiance under random lights of radiance 1; 1e-5..1. Not given: 0.001, or what "
+                  "the full\n"
+                  "table has where that is more")
       ->check(CLI::Range(1e-5, 1.0))
       ->type_name("E")
       ->capture_default_str();
@@ -79,12 +81,13 @@ ScenePlan planOf(const CLI::App& command, const SceneArguments& a) {
   PlanRequest request = a.request;
   if (command.count("--max-bytes") > 0 && request.maxBytes > 0 && command.count("--max-error") == 0)
     request.maxError = 0.0;
+  request.noStricterThanFull = command.count("--max-error") == 0 && request.maxError > 0.0;
   std::string error;
   if (!request.isValid(&error)) throw std::invalid_argument("--" + error);
   SceneUse use = readScene(a.scene);
   if (!a.lights.empty()) use.lights = lightsOf(a.lights);
   if (!a.views.empty()) {
-    if (!(a.views[0] < a.views[1]))
+    if (!(a.views[0] <= a.views[1]))
       throw std::invalid_argument("--views: need two angles, the lower one first");
     constexpr double kDegree = std::numbers::pi / 180.0;
     use.views = {a.views[0] * kDegree, std::min(a.views[1] * kDegree, 0.5 * std::numbers::pi)};

@@ -33,6 +33,10 @@ std::uint32_t step(double value, double levels) {
   return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * levels));
 }
 
+double ratioOf(const LobeUse& lobe) {
+  return lobe.alphaX > 0.0 ? lobe.alphaY / lobe.alphaX : 1.0;
+}
+
 }  // namespace
 
 std::uint32_t LobeHistogram::cellOf(const LobeUse& lobe) const {
@@ -53,6 +57,13 @@ void LobeHistogram::add(const LobeUse& lobe) {
   sum.f90 += lobe.weight * lobe.f90;
   sum.weight += lobe.weight;
   weight_ += lobe.weight;
+  const auto keep = [&lobe](LobeUse& end, double value, double known, int sign) {
+    if (end.weight == 0.0 || sign * value > sign * known) end = lobe;
+  };
+  keep(ends_[0], lobe.alphaX, ends_[0].alphaX, -1);
+  keep(ends_[1], lobe.alphaX, ends_[1].alphaX, 1);
+  keep(ends_[2], ratioOf(lobe), ratioOf(ends_[2]), -1);
+  keep(ends_[3], ratioOf(lobe), ratioOf(ends_[3]), 1);
   while (cells_.size() > kMaxLobes) coarsen();
 }
 
@@ -86,6 +97,14 @@ std::vector<LobeUse> LobeHistogram::lobes(double share) const {
     lobe.alphaX = std::max(lobe.alphaX, lobe.alphaY);
     out.push_back(lobe);
   }
+  if (level_ == 0) return out;
+  double total = share;
+  for (const LobeUse& end : ends_) {
+    out.push_back(end);
+    out.back().weight *= share / weight_;
+    total += out.back().weight;
+  }
+  for (LobeUse& lobe : out) lobe.weight *= share / total;
   return out;
 }
 

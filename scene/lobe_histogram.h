@@ -1,6 +1,7 @@
 // The lobes of a material, counted.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -14,7 +15,8 @@ namespace ltcfit {
 ///   the anisotropy sqrt((alphaX - alphaY) / (1 - alphaY))       to 1/255 (of glTF; 0 is never merged with
 ///   more), f0 and f90                                                  to 1/16 each;
 /// where that leaves more than kMaxLobes, these steps double until it does not. A merged lobe has the
-/// weighted means of what it stands for: what occurs alone is kept exactly.
+/// weighted means of what it stands for: what occurs alone is kept, up to rounding. Where steps had to
+/// double, the lobes of least and largest alphaX and alphaY / alphaX are kept besides, so that ranges stay.
 class LobeHistogram {
  public:
   static constexpr std::size_t kMaxLobes = 4096;
@@ -31,6 +33,7 @@ class LobeHistogram {
   void coarsen();
 
   std::unordered_map<std::uint32_t, LobeUse> cells_;  // sums, each times its weight
+  std::array<LobeUse, 4> ends_;                       // weight 0 before the first
   double weight_ = 0.0;
   unsigned level_ = 0;  // the steps are 2^level as wide
 };

@@ -1,5 +1,5 @@
 // What a scene uses of the tables: which lobes, under which lights. Readers of scenes fill it, the plan
-// (scene/plan.h) follows from it.
+// (tailor/scene_plan.h) follows from it.
 #pragma once
 
 #include <cstddef>

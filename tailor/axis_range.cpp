@@ -15,6 +15,8 @@ struct Extent {
   double low = 1.0;
   double high = 0.0;
 
+  // up to the rounding of means of equal numbers
+  bool isSingle() const { return high - low <= 1e-9 * high; }
   void add(double v) {
     low = std::min(low, v);
     high = std::max(high, v);
@@ -23,7 +25,8 @@ struct Extent {
 
 AxisRange alphaRange(const Extent& extent, AxisMap map, double floor, double margin) {
   AxisRange range{"alpha", "1", map, extent.low, extent.high};
-  if (extent.low == extent.high) return range;
+  if (extent.isSingle()) range.high = range.low;
+  if (range.isSingle()) return range;
   const auto moved = [&](double alpha, double by) {
     const double roughness = std::sqrt(alpha) + by;
     return std::clamp(roughness * std::abs(roughness), floor, 1.0);
@@ -56,6 +59,7 @@ std::vector<AxisRange> axisRanges(const LobeDistribution& distribution, double a
             alphaRange(alpha, AxisMap::kSqrt, alphaFloor, margin)};
   }
   AxisRange ratio{"lambda", "1", AxisMap::kLinear, lambda.low, lambda.high};
+  if (lambda.isSingle()) ratio.high = ratio.low;
   if (!ratio.isSingle()) {
     ratio.low = std::max(0.0, lambda.low - margin);
     ratio.high = std::min(1.0, lambda.high + margin);

@@ -17,12 +17,12 @@ struct FetchError {
   double standardError = 0.0;  ///< of the mean, as if the look-ups were independent: they are more even
   double p99 = 0.0;
   double max = 0.0;
-  std::size_t singular = 0;  ///< look-ups without an inverse, which count as infinite
-  std::size_t lookUps = 0;
+  std::size_t singular = 0;  ///< look-ups without an inverse or a finite error, which count as infinite
+  std::size_t lookUps = 0;   ///< that have a direct fit to be compared with
 
   /// Whether the mean is below a bound by so much that other look-ups of the same distribution would find it
   /// below as well: two standard errors.
-  bool isWithin(double bound) const { return mean + 2.0 * standardError <= bound; }
+  bool isWithin(double bound) const { return lookUps > 0 && mean + 2.0 * standardError <= bound; }
 };
 
 /// Look-ups of a distribution with a direct fit of each.
@@ -42,6 +42,7 @@ class FetchCheck {
 
  private:
   bool isotropic_;
+  int threads_;
   std::uint64_t seed_;
   std::vector<LookUp> lookUps_;
   std::vector<StoredEntry> direct_;

@@ -38,13 +38,17 @@ StoredEntry fitLookUp(const LobeParameters& parameters, bool isotropic,
 /// polynomial through them.
 class InterpolationModel {
  public:
-  /// Lines reach over the range of their axis, and on to the nodes of the full table beside it.
+  /// Throws std::runtime_error where no look-up is left. Lines reach over the range of their axis, and on to
+  /// the nodes of the full table beside it.
   InterpolationModel(const LobeDistribution& distribution, const std::vector<AxisRange>& ranges,
                      const InterpolationModelOptions& options, const FitProgress& progress = {});
 
+  int threads() const { return threads_; }
   std::size_t axisCount() const { return ranges_.size(); }
   const std::vector<AxisRange>& ranges() const { return ranges_; }
   std::size_t fits() const { return fits_; }
+  /// Look-ups that count.
+  std::size_t lookUps() const { return lookUps_.size(); }
   /// Look-ups whose lobe, or one on their lines, could not be fitted: left out.
   std::size_t leftOut() const { return leftOut_; }
 
@@ -52,7 +56,8 @@ class InterpolationModel {
   using Shifts = Eigen::Matrix<double, 11, Eigen::Dynamic>;
   Shifts shifts(std::size_t axis, const Axis& nodes) const;
 
-  /// Predicted LightResponse::difference, mean over the look-ups, for the sum of one shift for each axis.
+  /// Predicted LightResponse::difference, mean over the look-ups, for the sum of one shift for each axis: the
+  /// root of the metric's square over 1 + the displacement, in widths of the lobe.
   double error(std::span<const Shifts* const> shifts) const;
   double error(const std::vector<Axis>& axes) const;
 
@@ -69,6 +74,7 @@ class InterpolationModel {
   LobeParameters moved(std::size_t axis, const LobeParameters& p, double physical) const;
 
   bool isotropic_;
+  int threads_ = 1;
   double alphaFloor_;
   std::vector<AxisRange> ranges_;
   std::vector<Extent> extents_;
@@ -77,6 +83,7 @@ class InterpolationModel {
   std::vector<LookUp> lookUps_;
   std::vector<StoredEntry> entries_;
   std::vector<Eigen::Matrix<double, 11, 11>> metrics_;
+  std::vector<Eigen::Matrix<double, 2, 11>> displacements_;
   std::vector<std::vector<Line>> lines_;  // for each look-up, one for each axis
   std::size_t fits_ = 0;
   std::size_t leftOut_ = 0;

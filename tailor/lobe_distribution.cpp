@@ -31,19 +31,18 @@ std::vector<LookUp> drawLookUps(const LobeDistribution& distribution, std::size_
   const double high = mapCoordinate(map, distribution.views.high);
   std::vector<LookUp> out(count);
   for (std::size_t i = 0; i < count; ++i) {
-    // the golden ratio's sequence goes with R2 to three dimensions well enough: no two of their steps are
-    // in a ratio of small numbers
+    // lobes and theta, which errors depend on most, by R2, which is even in two dimensions
+    const Eigen::Vector2d r2 = views(i);
     const double u = shift + static_cast<double>(i + 1) * (std::numbers::phi - 1.0);
-    const double quantile = (u - std::floor(u)) * total;
+    const double quantile = r2.y() * total;
     const auto at = std::min<std::size_t>(
         static_cast<std::size_t>(std::upper_bound(below.begin(), below.end(), quantile) - below.begin()),
         lobes.size() - 1);
-    const Eigen::Vector2d v = views(i);
     LobeParameters& p = out[i].parameters;
     p.alphaX = std::max(lobes[at].alphaX, alphaFloor);
     p.alphaY = std::max(lobes[at].alphaY, alphaFloor);
-    p.theta = std::min(unmapCoordinate(map, low + v.x() * (high - low)), 0.5 * std::numbers::pi);
-    p.phi = distribution.isotropic ? 0.0 : v.y() * 0.5 * std::numbers::pi;
+    p.theta = std::min(unmapCoordinate(map, low + r2.x() * (high - low)), 0.5 * std::numbers::pi);
+    p.phi = distribution.isotropic ? 0.0 : (u - std::floor(u)) * 0.5 * std::numbers::pi;
     out[i].f0 = lobes[at].f0;
     out[i].f90 = lobes[at].f90;
   }

@@ -19,11 +19,9 @@ constexpr std::size_t kMostLobes = 65536;
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 Json requestToJson(const PlanRequest& r) {
-  return {{"max_error", r.maxError},
-          {"max_bytes", r.maxBytes},
-          {"margin", r.margin},
-          {"alpha_floor", r.alphaFloor},
-          {"seed", r.seed}};
+  return {{"max_error", r.maxError},     {"no_stricter_than_full", r.noStricterThanFull},
+          {"max_bytes", r.maxBytes},     {"margin", r.margin},
+          {"alpha_floor", r.alphaFloor}, {"seed", r.seed}};
 }
 
 Json costToJson(const TableCost& cost) {
@@ -38,7 +36,9 @@ Json tableToJson(const PlannedTable& t) {
   Json json{{"kind", t.distribution.isotropic ? "isotropic" : "anisotropic"},
             {"reasons", t.reasons},
             {"channels", t.amplitudes},
-            {"precision", t.precision == Precision::kHalf ? "half" : "float"},
+            {"precision", "half"},
+            {"max_error", t.maxError},
+            {"max_bytes", t.maxBytes},
             {"expected", costToJson(t.cost)},
             {"within_max_error", t.reachable},
             {"full_table", costToJson(t.full)}};
@@ -73,12 +73,17 @@ bool flag(const JsonFields& fields, const char* key) {
   return value.get<bool>();
 }
 
+std::size_t readBytes(const JsonFields& fields) {
+  const double bytes = fields.number("max_bytes");
+  if (!(bytes >= 0.0 && bytes <= 1e12)) throw InputError(fields.where("max_bytes") + ": need 0 to 1e12");
+  return static_cast<std::size_t>(bytes);
+}
+
 PlanRequest readRequest(const JsonFields& fields) {
   PlanRequest r;
   r.maxError = fields.number("max_error");
-  const double bytes = fields.number("max_bytes");
-  if (!(bytes >= 0.0 && bytes <= 1e12)) throw InputError(fields.where("max_bytes") + ": need 0 to 1e12");
-  r.maxBytes = static_cast<std::size_t>(bytes);
+  r.noStricterThanFull = flag(fields, "no_stricter_than_full");
+  r.maxBytes = readBytes(fields);
   r.margin = fields.number("margin");
   r.alphaFloor = fields.number("alpha_floor");
   const double seed = fields.number("seed");
@@ -152,7 +157,14 @@ ScenePlan readPlan(const Json& json) {
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const std::string where = fmt::format("tables[{}]", i);
     PlannedTable table;
-    table.distribution = readDistribution(JsonFields(tables[i], where), where);
+    const JsonFields fields(tables[i], where);
+    table.distribution = readDistribution(fields, where);
+    table.maxError = fields.number("max_error");
+    if (table.maxError != 0.0 && !(table.maxError >= 1e-5 && table.maxError <= 1.0))
+      throw InputError(fields.where("max_error") + ": need 1e-5 to 1, or 0");
+    table.maxBytes = readBytes(fields);
+    if (table.maxError == 0.0 && table.maxBytes == 0)
+      throw InputError(where + ": needs max_error or max_bytes");
     plan.tables.push_back(std::move(table));
   }
   if (plan.tables.size() == 2 &&
@@ -164,15 +176,19 @@ ScenePlan readPlan(const Json& json) {
 }  // namespace
 
 std::string planToJson(const ScenePlan& plan) {
-  Json json{{"format", kFormat},
-            {"version", kVersion},
-            {"scene", plan.scene},
-            {"request", requestToJson(plan.request)},
-            {"lights", lightsToJson(plan.lights)},
-            {"shading", plan.shading},
-            {"notes", plan.notes},
-            {"materials", Json::array()},
-            {"tables", Json::array()}};
+  Json json{
+      {"format", kFormat},
+      {"version", kVersion},
+      {"about",
+       "ltcfit fit --plan reads scene, request, lights and of each table kind, max_error, max_bytes and "
+       "distribution; all else says what is expected and why"},
+      {"scene", plan.scene},
+      {"request", requestToJson(plan.request)},
+      {"lights", lightsToJson(plan.lights)},
+      {"shading", plan.shading},
+      {"notes", plan.notes},
+      {"materials", Json::array()},
+      {"tables", Json::array()}};
   for (const MaterialSummary& m : plan.materials) json["materials"].push_back(materialToJson(m));
   for (const PlannedTable& t : plan.tables) json["tables"].push_back(tableToJson(t));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -9,13 +9,13 @@
 namespace ltcfit {
 
 /// JSON, format "ltc-plan", version 1. What `ltcfit fit --plan` reads of it are the fields `scene`,
-/// `request`, `lights` and of each table `kind` and `distribution` (lobes as [alpha_x, alpha_y, f0, f90,
-/// weight]): they may be edited. All else says what is expected and why.
+/// `request`, `lights` and of each table `kind`, `max_error`, `max_bytes` and `distribution` (lobes as
+/// [alpha_x, alpha_y, f0, f90, weight]): they may be edited. All else says what is expected and why.
 std::string planToJson(const ScenePlan& plan);
 
-/// Reads those fields; of the tables the distributions alone are set. `name` is the file's, for messages.
-/// Throws InputError naming the field: not JSON, another format or version, a missing or wrong field, a value
-/// out of range, more than 65536 lobes.
+/// Reads those fields; of the tables distribution, maxError and maxBytes alone are set. `name` is the file's,
+/// for messages. Throws InputError naming the field: not JSON, another format or version, a missing or wrong
+/// field, a value out of range, more than 65536 lobes.
 ScenePlan planFromJson(std::string_view text, const std::string& name);
 
 }  // namespace ltcfit

@@ -40,10 +40,10 @@ void addMaterials(std::vector<MaterialSummary> materials, std::string* out) {
 }
 
 void addCost(const char* name, const TableCost& cost, const char* what, std::string* out) {
-  fmt::format_to(std::back_inserter(*out), "  {:<9} {:<15} {:>9}  {} texture{}, {} fetch{}  error {:.2g}{}\n",
-                 name, nodesText(cost.nodes), bytesText(cost.bytes), cost.textures,
-                 cost.textures == 1 ? "" : "s", cost.fetches, cost.fetches == 1 ? "" : "es", cost.error,
-                 what);
+  fmt::format_to(std::back_inserter(*out),
+                 "  {:<9} {:<15} {:>9} in halves  {} texture{}, {} fetch{}  mean error {:.2g}{}\n", name,
+                 nodesText(cost.nodes), bytesText(cost.bytes), cost.textures, cost.textures == 1 ? "" : "s",
+                 cost.fetches, cost.fetches == 1 ? "" : "es", cost.error, what);
 }
 
 void addTable(const PlannedTable& t, const PlanRequest& request, std::string* out) {
@@ -53,13 +53,20 @@ void addTable(const PlannedTable& t, const PlanRequest& request, std::string* ou
   fmt::format_to(into, "{} table ({})\n", t.distribution.isotropic ? "Isotropic" : "Anisotropic", axes);
   addCost("tailored", t.cost, ", predicted", out);
   addCost("full", t.full, ", predicted, over the same look-ups", out);
-  if (!t.reachable)
-    fmt::format_to(into, "  an error of {:g} is out of reach{}\n", request.maxError,
-                   request.maxBytes > 0 ? fmt::format(" within {}", bytesText(request.maxBytes)) : "");
-  if (request.maxError > 0.0 && t.full.error > request.maxError)
-    fmt::format_to(into,
-                   "  the full table does not keep to {:g} either: --max-error {:.2g} is as good as it\n",
-                   request.maxError, t.full.error);
+  if (!t.reachable && t.maxError > 0.0)
+    fmt::format_to(into, "  a mean error of {:g} is out of reach{}\n", t.maxError,
+                   t.maxBytes > 0 ? fmt::format(" within {}", bytesText(t.maxBytes)) : "");
+  if (!t.reachable && t.maxError == 0.0)
+    fmt::format_to(into, "  the smallest table has {}: out of reach\n", bytesText(t.cost.bytes));
+  if (request.maxError > 0.0 && t.maxError > request.maxError)
+    fmt::format_to(into, "  bound {:g}: {:g} is more than the full table keeps to; --max-error insists\n",
+                   t.maxError, request.maxError);
+  if (t.maxError > 0.0 && t.full.error > t.maxError)
+    fmt::format_to(
+        into, "  the full table does not keep to {:g} either: --max-error {:.2g} is as good as it{}\n",
+        t.maxError, t.full.error,
+        t.cost.bytes > t.full.bytes ? ", and smaller than this one, which is larger than the full table"
+                                    : "");
   for (const std::string& reason : t.reasons) fmt::format_to(into, "    {}\n", reason);
 }
 
@@ -88,11 +95,13 @@ std::string planText(const ScenePlan& plan) {
                   printable(plan.scene), plan.materials.size(), plan.materials.size() == 1 ? "" : "s");
   addMaterials(plan.materials, &out);
   for (const PlannedTable& t : plan.tables) addTable(t, plan.request, &out);
-  out += "Shading\n";
-  for (const std::string& line : plan.shading) out += "    " + line + "\n";
-  for (const std::string& line : plan.lights.reasons) out += "    " + printable(line) + "\n";
+  if (!plan.tables.empty()) {
+    out += "Shading\n";
+    for (const std::string& line : plan.shading) out += "    " + line + "\n";
+    for (const std::string& line : plan.lights.reasons) out += "    " + printable(line) + "\n";
+  }
   if (!plan.notes.empty()) out += "Notes\n";
-  for (const std::string& line : plan.notes) out += "    " + line + "\n";
+  for (const std::string& line : plan.notes) out += "    " + printable(line) + "\n";
   return out;
 }
 

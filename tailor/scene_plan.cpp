@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include "export/packing.h"
@@ -129,43 +131,92 @@ double weightOf(const LobeDistribution& distribution) {
   return sum;
 }
 
-// `share`: of the distribution in all lobes.
-PlannedTable planTable(const LobeDistribution& distribution, double share, const PlanRequest& request,
-                       std::size_t maxBytes, int threads, const FitProgress& progress) {
+// What a table is chosen from.
+struct Candidates {
+  LobeDistribution distribution;
+  double share = 0.0;  // of the distribution in all lobes
+  std::vector<std::string> amplitudes;
+  std::unique_ptr<InterpolationModel> model;
+  std::unique_ptr<TableDesigns> designs;
+
+  std::size_t bytes(const TableDesign& d) const {
+    return shippedBytes(designs->axes(d), amplitudes, Precision::kHalf);
+  }
+};
+
+Candidates makeCandidates(LobeDistribution distribution, double share, const PlanRequest& request,
+                          int threads, const FitProgress& progress) {
+  Candidates c;
+  c.distribution = std::move(distribution);
+  c.share = share;
+  c.amplitudes = neededAmplitudes(c.distribution);
+  const InterpolationModelOptions options = modelOptions(request, c.distribution.isotropic, threads);
+  c.model = std::make_unique<InterpolationModel>(
+      c.distribution, axisRanges(c.distribution, request.alphaFloor, request.margin), options, progress);
+  c.designs = std::make_unique<TableDesigns>(*c.model);
+  return c;
+}
+
+// Of maxBytes so many for the first table that the error over the lobes of both is least; the rest is the
+// second's.
+std::size_t firstShare(const Candidates& first, const Candidates& second, std::size_t maxBytes) {
+  std::size_t best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  const std::vector<TableDesign>& other = second.designs->front();
+  std::size_t k = other.size();
+  for (const TableDesign& d : first.designs->front()) {
+    const std::size_t bytes = first.bytes(d);
+    while (k > 0 && bytes + second.bytes(other[k - 1]) > maxBytes) --k;
+    if (k == 0) break;
+    const double error = first.share * d.error + second.share * other[k - 1].error;
+    if (error < least) {
+      least = error;
+      best = maxBytes - second.bytes(other[k - 1]);
+    }
+  }
+  return best;
+}
+
+PlannedTable planTable(const Candidates& c, const PlanRequest& request, std::size_t maxBytes) {
   PlannedTable t;
-  t.distribution = distribution;
-  t.amplitudes = neededAmplitudes(distribution);
-  const InterpolationModelOptions options = modelOptions(request, distribution.isotropic, threads);
-  const std::vector<AxisRange> ranges = axisRanges(distribution, request.alphaFloor, request.margin);
-  const InterpolationModel model(distribution, ranges, options, progress);
-  const TableDesigns designs(model);
-  const auto bytesOf = [&](const TableDesign& d) {
-    return shippedBytes(designs.axes(d), t.amplitudes, t.precision);
-  };
-  // as far as measured errors exceed predicted ones, and room for two standard errors (tailored_table.h)
+  t.distribution = c.distribution;
+  t.amplitudes = c.amplitudes;
+  t.maxBytes = maxBytes;
+  const LobeDistribution& distribution = c.distribution;
+  const InterpolationModel& model = *c.model;
+  const TableDesigns& designs = *c.designs;
+  // measured errors are above predicted ones by a tenth to a fifth (DESIGN.md, Tailored tables), and the fit
+  // asks for two standard errors below the bound
   constexpr double kSafety = 1.25;
+  // of the curve, points that differ by more than a sixth
+  constexpr double kCurveStep = 0.85;
+  const std::vector<Axis> full = fullAxes(distribution.isotropic, request.alphaFloor);
+  t.full = costOf(full, {"norm", "fresnel"}, Precision::kHalf, model.error(full));
+  t.maxError = request.maxError;
+  if (request.noStricterThanFull && t.full.error > t.maxError) {
+    // two digits, as it is printed, rounded up
+    const double step = std::pow(10.0, std::floor(std::log10(t.full.error)) - 1.0);
+    t.maxError = std::min(1.0, std::ceil(t.full.error / step) * step);
+  }
   const TableDesign* chosen = &designs.front().front();
   t.reachable = false;
   double last = 0.0;
   for (const TableDesign& d : designs.front()) {
-    const std::size_t bytes = bytesOf(d);
-    if (t.curve.empty() || d.error < 0.85 * last) {
+    const std::size_t bytes = c.bytes(d);
+    if (t.curve.empty() || d.error < kCurveStep * last) {
       t.curve.emplace_back(bytes, d.error);
       last = d.error;
     }
     if (maxBytes > 0 && bytes > maxBytes) break;
     if (!t.reachable) chosen = &d;
-    if (request.maxError > 0.0 && kSafety * d.error <= request.maxError) t.reachable = true;
+    if (t.maxError > 0.0 && kSafety * d.error <= t.maxError) t.reachable = true;
   }
-  if (request.maxError == 0.0 && bytesOf(*chosen) <= maxBytes) t.reachable = true;
+  if (request.maxError == 0.0 && c.bytes(*chosen) <= maxBytes) t.reachable = true;
   t.axes = designs.axes(*chosen);
-  t.cost = costOf(t.axes, t.amplitudes, t.precision, chosen->error);
-  const std::vector<Axis> full = fullAxes(distribution.isotropic, request.alphaFloor);
-  t.full = costOf(full, {"norm", "fresnel"}, Precision::kHalf, model.error(full));
-
-  t.reasons.push_back(fmt::format("{} of the scene's lobes are {}, by surface", percent(share),
-                                  distribution.isotropic ? "isotropic" : "anisotropic"));
-  for (const AxisRange& range : ranges) explainRange(range, &t.reasons);
+  t.cost = costOf(t.axes, t.amplitudes, Precision::kHalf, chosen->error);
+  t.reasons.push_back(fmt::format("{} of the scene's lobes, by the surface that has them, are {}",
+                                  percent(c.share), distribution.isotropic ? "isotropic" : "anisotropic"));
+  for (const AxisRange& range : model.ranges()) explainRange(range, &t.reasons);
   t.reasons.emplace_back(
       distribution.isotropic
           ? "matrix: 4 coefficients, Minv over its middle element, which the plane of incidence's "
@@ -181,7 +232,7 @@ PlannedTable planTable(const LobeDistribution& distribution, double share, const
                                         : "fresnel: left out, F0 is F90 everywhere");
   if (model.leftOut() > 0)
     t.reasons.push_back(fmt::format("{} of {} sampled lobes could not be fitted and do not count",
-                                    model.leftOut(), options.points));
+                                    model.leftOut(), model.leftOut() + model.lookUps()));
   return t;
 }
 
@@ -265,10 +316,17 @@ ScenePlan planScene(const SceneUse& use, const PlanRequest& request, int threads
     weight += weightOf(d);
     distributions.push_back(std::move(d));
   }
+  std::vector<Candidates> candidates;
+  for (LobeDistribution& d : distributions) {
+    const double share = weightOf(d) / weight;
+    candidates.push_back(makeCandidates(std::move(d), share, request, threads, progress));
+  }
   std::size_t left = request.maxBytes;
-  for (const LobeDistribution& d : distributions) {
-    plan.tables.push_back(planTable(d, weightOf(d) / weight, request, left, threads, progress));
-    const std::size_t used = plan.tables.back().cost.bytes;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool shared = i == 0 && candidates.size() == 2 && left > 0 && request.maxError == 0.0;
+    plan.tables.push_back(
+        planTable(candidates[i], request, shared ? firstShare(candidates[0], candidates[1], left) : left));
+    const std::size_t used = shared ? plan.tables.back().maxBytes : plan.tables.back().cost.bytes;
     if (left > 0) left = left > used ? left - used : 1;
   }
   if (plan.tables.empty()) plan.notes.emplace_back("no material has a specular lobe: no table is needed");

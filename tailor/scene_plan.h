@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "export/image.h"
 #include "scene/scene_use.h"
 #include "tailor/interpolation_model.h"
 #include "tailor/lobe_distribution.h"
@@ -20,6 +19,8 @@ struct PlanRequest {
   /// Bound of the mean difference between the table's look-ups and direct fits (tailor/light_response.h), in
   /// radiance under lights of radiance 1; 1e-5..1. 0: as small as maxBytes, which must then be set, allows.
   double maxError = 1e-3;
+  /// A table's bound is the full table's error where that is larger: nothing is out of reach.
+  bool noStricterThanFull = false;
   std::size_t maxBytes = 0;  ///< of all textures together; 0: no bound
   double margin = 0.01;      ///< around ranges: in roughness and in lambda, 0..1
   double alphaFloor = 1e-4;  ///< GGX alphas below count as this one, 1e-5..0.1
@@ -43,9 +44,10 @@ struct PlannedTable {
   LobeDistribution distribution;
   std::vector<std::string> amplitudes;  ///< of norm, fresnel those that are needed
   std::vector<Axis> axes;               ///< predicted to be enough
-  Precision precision = Precision::kHalf;
-  TableCost cost;
-  TableCost full;                                     ///< of the table for every scene, in halves too
+  double maxError = 0.0;                ///< its bound; 0: none
+  std::size_t maxBytes = 0;             ///< its share of PlanRequest::maxBytes; 0: no bound
+  TableCost cost;                       ///< in halves; the fit takes floats where halves are too coarse
+  TableCost full;                       ///< of the table for every scene, in halves too
   std::vector<std::pair<std::size_t, double>> curve;  ///< bytes and predicted error of the best designs
   bool reachable = true;                              ///< maxError can be kept
   std::vector<std::string> reasons;
@@ -79,7 +81,9 @@ LobeDistribution distributionOf(const SceneUse& use, bool isotropic);
 /// The model that a planned table is designed by; the same for the same request.
 InterpolationModelOptions modelOptions(const PlanRequest& request, bool isotropic, int threads);
 
-/// Makes the plan: some 2,000 fits of single lobes for each table. `request` must be valid.
+/// Makes the plan. Where bytes alone are bounded, and there are two tables, they are shared out so that the
+/// mean error over all lobes is least; else the isotropic one takes what its bound needs, and the other has
+/// the rest. Some 2,000 fits of single lobes for each table. `request` must be valid.
 ScenePlan planScene(const SceneUse& use, const PlanRequest& request, int threads,
                     const FitProgress& progress = {});
 

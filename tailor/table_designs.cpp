@@ -6,7 +6,7 @@
 namespace ltcfit {
 namespace {
 
-// Steps of the warps' search, per coefficient: halves of what changes an error by a few per cent.
+// Steps of the warps' search, per coefficient. Errors are flat about the best warp: finer ones do not pay.
 constexpr double kWarpStep = 0.2;
 constexpr double kSmallestWarpStep = 0.05;
 
@@ -55,8 +55,8 @@ TableDesigns::TableDesigns(const InterpolationModel& model) : model_(model) {
     std::vector<Choice>& choices = choices_.emplace_back();
     AxisWarp warp{};
     for (std::size_t n = 1; n <= (range.isSingle() ? 1 : most); ++n) {
-      if (n > 2) warp = bestWarp(model, a, n, warp);
-      Axis axis = range.axis(n, n > 2 ? warp : AxisWarp{});
+      if (n > 1) warp = bestWarp(model, a, n, warp);
+      Axis axis = range.axis(n, n > 1 ? warp : AxisWarp{});
       InterpolationModel::Shifts shifts = model.shifts(a, axis);
       choices.push_back({std::move(axis), std::move(shifts)});
     }
@@ -72,7 +72,7 @@ TableDesigns::TableDesigns(const InterpolationModel& model) : model_(model) {
       nodes[a] = more ? nodes[a] + 1 : 1;
     }
   }
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(model.threads())
   for (std::size_t i = 0; i < all.size(); ++i) all[i].error = error(all[i].nodes);
   std::sort(all.begin(), all.end(), [](const TableDesign& a, const TableDesign& b) {
     const std::size_t m = a.nodeCount();

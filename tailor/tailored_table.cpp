@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
 
 #include "export/packing.h"
 #include "fit/table_fit.h"
@@ -131,7 +134,12 @@ class Tailor {
       out_.steps.back().error.mean = std::numeric_limits<double>::infinity();
       return false;
     }
-    const FetchError error = check_.measure(shippedTable(*table, out_.precision));
+    FetchError error;
+    try {
+      error = check_.measure(shippedTable(*table, out_.precision));
+    } catch (const std::invalid_argument&) {  // numbers that no half holds
+      error.mean = error.standardError = std::numeric_limits<double>::infinity();
+    }
     const TailorStep step{design, bytesOf(design), out_.precision, error};
     out_.steps.push_back(step);
     const bool within = error.isWithin(options_.maxError);
@@ -160,7 +168,7 @@ class Tailor {
     }
     while (below < above && mayTryMore()) {
       std::size_t guess = below;
-      // two standard errors are 0.1 of the mean or less
+      // two standard errors are some 0.1 of the mean, more for sharp lobes: then the next guess is larger
       while (guess + 1 < above && predicted(front[guess]) > 0.92 * options_.maxError) ++guess;
       // where guesses end beside a bound again and again, the middle
       if (out_.steps.size() >= 6) guess = below + (above - below) / 2;
@@ -200,7 +208,7 @@ class Tailor {
   std::vector<std::string> amplitudes_;
   FetchCheck check_;
   TailoredTable out_;
-  double ratio_ = 1.1;  // of measured to predicted errors: what scenes have
+  double ratio_ = 1.1;  // of measured to predicted errors, before the first one (DESIGN.md, Tailored tables)
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ struct TailorStep {
 };
 
 struct TailoredTable {
-  /// The smallest that keeps to the error, else the best one; empty where none could be fitted.
+  /// The smallest one fitted that keeps to the error, else the best one; empty where none could be fitted.
   std::optional<Table> table;              ///< in float32, without the amplitudes that are not needed
   Precision precision = Precision::kHalf;  ///< that it is to be shipped in
   TailorStep step;                         ///< of that table
@@ -54,9 +54,11 @@ std::optional<Table> fitAxes(const std::vector<Axis>& axes, bool isotropic,
                              const std::vector<std::string>& amplitudes,
                              const InterpolationModelOptions& options, const FitProgress& progress = {});
 
-/// Goes along the front of the designs until the smallest table is found whose measured error is within the
-/// bound, then takes nodes away along single axes as long as it stays there. In halves, unless these alone
-/// cost more than half of the bound. What was measured corrects what is predicted on the way.
+/// Goes along the front of the designs to a table whose measured error is within the bound while the next
+/// smaller ones tried were not, then takes nodes away along single axes as long as it stays there. In halves,
+/// unless these alone cost more than half of the bound. What was measured corrects what is predicted on the
+/// way. All tables are measured at the same look-ups: whoever needs a figure that the choice has not seen
+/// takes verifyTable.
 TailoredTable tailorTable(const LobeDistribution& distribution, const TableDesigns& designs,
                           const TailorOptions& options, const FitProgress& progress = {});
 

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "fit/parallel_for.h"
@@ -77,6 +78,19 @@ Table completed(const Table& table) {
   return Table(std::move(info), std::move(data));
 }
 
+// Pixels whose view is outside of the range count as no surface: the table is not for them.
+void maskViews(const Scene& scene, const ViewUse& views, Film* film) {
+  for (std::size_t row = 0; row < film->height; ++row) {
+    for (std::size_t column = 0; column < film->width; ++column) {
+      const PixelView view = viewPixel(scene, column, row);
+      if (view.kind != PixelKind::kSurface) continue;
+      const double theta = std::acos(std::clamp(view.point.wo.z(), 0.0, 1.0));
+      if (theta < views.low || theta > views.high)
+        film->kinds[row * film->width + column] = PixelKind::kBackground;
+    }
+  }
+}
+
 void addScenes(const Table& tailored, const Table& full, const LobeDistribution& distribution, double bound,
                const InterpolationModelOptions& fit, const VerificationOptions& options, Verification* out) {
   const std::vector<LookUp> lookUps =
@@ -97,8 +111,9 @@ void addScenes(const Table& tailored, const Table& full, const LobeDistribution&
     reference.seed = mixSeed(options.seed, 4);
     reference.maxSamples = 1 << 14;
     reference.threads = fit.threads;
-    const ReferenceFilm truth = renderReference(scene, reference);
-    if (truth.surfacePixels == 0) continue;
+    ReferenceFilm truth = renderReference(scene, reference);
+    maskViews(scene, distribution.views, &truth.film);
+    if (std::count(truth.film.kinds.begin(), truth.film.kinds.end(), PixelKind::kSurface) == 0) continue;
     TwinOptions twin;
     twin.threads = fit.threads;
     const double a = pictureError(renderTwin(scene, tailoredTwin, twin), truth.film).rmse;

@@ -42,7 +42,7 @@ struct Verification {
 
 /// Compares `tailored` and `full`, both as shipped, over the distribution. Reflectances of the scenes'
 /// surfaces are the distribution's; F90 is 1 in pictures, and where the tailored table has no Fresnel so is
-/// F0.
+/// F0. Pixels seen under other angles than the distribution's are left out.
 Verification verifyTable(const Table& tailored, const Table& full, const LobeDistribution& distribution,
                          double bound, const InterpolationModelOptions& fit,
                          const VerificationOptions& options, const FitProgress& progress = {});

@@ -19,12 +19,23 @@ assert len(axes['alpha']) == 1 and abs(axes['alpha'][0] - 0.16) < 1e-7, axes
 assert 4 < len(axes['theta']) < 24, axes
 assert table['bytes'] == 12 * len(axes['theta']), table
 assert table['error']['mean'] <= 0.001, table
-assert summary['max_error'] == 0.001
+assert table['max_error'] == 0.001
 PY
 
 # The same at once; any number of threads.
 "$ltcfit" fit --scene "$scenes/plain.gltf" -o at_once.json -q --threads 1 || fail "fit --scene"
 [ "$(grep -v provenance at_once.json)" = "$(grep -v provenance row.json)" ] || fail "--scene is not as --plan"
+
+# The command that the file names makes the same file, and that of --scene too.
+mkdir again
+cp plain.json again
+cp "$scenes/plain.gltf" again
+for f in row at_once; do
+  command=$(python3 -c "import json; print(json.load(open('$f.json'))['provenance']['command'].removeprefix('ltcfit '))")
+  # shellcheck disable=SC2086
+  (cd again && "$ltcfit" $command -o $f.json -q) || fail "$command"
+  cmp -s $f.json again/$f.json || fail "$command: another file"
+done
 
 # What it is shipped as has the bytes that are stated.
 "$ltcfit" export row.json --format npy --layout lean --precision half -o row.npy >/dev/null 2>&1 || fail "export lean"
@@ -60,6 +71,22 @@ PY
 python3 -c "import json; b = json.load(open('small.txt'))['tables'][0]['bytes']; assert 300 < b <= 400, b" ||
   fail "--max-bytes 400: another size"
 
+# Views from above only: verified in pictures of such views.
+"$ltcfit" fit --scene "$scenes/plain.gltf" --views 0 40 -o above.json --verify --full "$source_dir/data/ltc_iso.json" --json \
+  >above.txt || fail "--views"
+python3 - <<'PY' || fail "--views: $(tail -c 600 above.txt)"
+import json
+scenes = json.load(open('above.txt'))['tables'][0]['verification']['scenes']
+assert scenes['count'] > 4 and scenes['worse_by_more_than_the_bound'] == 0, scenes
+PY
+
+# A mirror: the bound is the full table's unless one insists.
+echo '{"format":"ltc-scene","version":1,"name":"mirror","materials":[{"name":"m","roughness":0,"f0":1}]}' >mirror.json
+"$ltcfit" scene mirror.json >mirror.txt || fail "mirror.json"
+grep -q "is more than the full table keeps to" mirror.txt || fail "mirror.json: the bound is not explained"
+"$ltcfit" scene mirror.json --max-error 0.001 >mirror.txt
+[ $? -eq 3 ] || fail "mirror.json at 0.001 is within reach"
+
 # Out of reach: exit 3, nothing written.
 "$ltcfit" fit --scene "$scenes/satin.json" -o none.json --max-error 0.0005 --max-bytes 400 >none.txt 2>&1
 [ $? -eq 3 ] || fail "out of reach is not exit 3"
@@ -86,7 +113,7 @@ expect "missing.gltf" scene missing.gltf
 expect "format is not" fit --plan other.json -o x.json
 expect "is what is read" fit --plan plain.json -o plain.json
 expect "--max-error needs --scene" fit --plan plain.json -o x.json --max-error 0.1
-expect "need --plan or --scene" fit --plan plain.json --scene cut.gltf -o x.json
+expect "exclude each other" fit --plan plain.json --scene cut.gltf -o x.json
 expect "--output is required" fit --plan plain.json
 expect "--full needs --verify" fit --plan plain.json -o x.json --full row.json
 expect "--views" scene "$scenes/plain.gltf" --views 60 20

@@ -154,7 +154,8 @@ void damagedFilesGetAMessage(const ScenePlan& plan) {
   for (std::size_t n = 0; n + 3 < text.size(); n += 7)
     EXPECT_NE(messageOf(text.substr(0, n)), "accepted") << n;
   EXPECT_EQ(messageOf(replaced(text, "\"ltc-plan\"", "\"ltc-table\"")), "p.json: format is not \"ltc-plan\"");
-  EXPECT_NE(messageOf(replaced(text, "\"max_error\": 0.003", "\"max_error\": 7")).find("max-error 7: need"),
+  EXPECT_NE(messageOf(replaced(text, "\"max_error\": 0.003,\n  \"no", "\"max_error\": 7,\n  \"no"))
+                .find("max-error 7: need"),
             std::string::npos);
   EXPECT_NE(messageOf(replaced(text, "\"kind\": \"isotropic\"", "\"kind\": \"round\""))
                 .find("tables[0].kind 'round'"),
@@ -172,6 +173,27 @@ TEST(ScenePlan, OfASceneWithEverything) {
   hasBothTablesAndSaysWhy(plan);
   filesReadBack(plan);
   damagedFilesGetAMessage(plan);
+}
+
+TEST(ScenePlan, BytesAreSharedOut) {
+  SceneUse use;
+  use.materials = {material("paint", {{0.25, 0.25, 1.0, 1.0, 0.5}, {0.3, 0.3, 1.0, 1.0, 0.3}}),
+                   material("steel", {{0.3, 0.12, 1.0, 1.0, 0.2}})};
+  PlanRequest request;
+  request.maxError = 0.0;
+  request.maxBytes = 3000;
+  const ScenePlan plan = planScene(use, request, 0);
+  ASSERT_EQ(plan.tables.size(), 2u);
+  const PlannedTable& iso = plan.tables[0];
+  const PlannedTable& aniso = plan.tables[1];
+  EXPECT_LE(iso.maxBytes + aniso.maxBytes, 3000u);
+  EXPECT_LE(iso.cost.bytes, iso.maxBytes);
+  EXPECT_LE(aniso.cost.bytes, aniso.maxBytes);
+  EXPECT_GT(aniso.cost.bytes, iso.cost.bytes);  // of four axes, though of fewer lobes
+  EXPECT_LT(aniso.cost.error, 20.0 * iso.cost.error);
+  const ScenePlan back = planFromJson(planToJson(plan), "p.json");
+  EXPECT_EQ(back.tables[0].maxBytes, iso.maxBytes);
+  EXPECT_EQ(back.tables[1].maxError, 0.0);
 }
 
 TEST(ScenePlan, RequestsAreChecked) {

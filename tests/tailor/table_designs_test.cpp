@@ -102,6 +102,37 @@ void theFullTableIsPredictedBeyondTheRange(const Designed& d) {
   EXPECT_LT(full, d.designs.design({16, 8}).error);
 }
 
+TEST(TableDesigns, PredictionsComeNearForMirrorsToo) {
+  LobeDistribution distribution = test::isotropicLobes(0.02, 0.02, 1);
+  const InterpolationModelOptions options = test::quickModel(true);
+  const InterpolationModel model(distribution, axisRanges(distribution, kFloor, 0.01), options);
+  const TableDesigns designs(model);
+  const FetchCheck check(distribution, 128, options, 99);
+  for (std::size_t nodes : {8u, 24u}) {
+    const TableDesign design = designs.design({nodes, 1});
+    const auto table = fitAxes(designs.axes(design), true, {"norm"}, options);
+    ASSERT_TRUE(table.has_value());
+    // within two: shifts are beyond the lobe's own width
+    const double measured = check.measure(shippedTable(*table, Precision::kHalf)).mean;
+    EXPECT_GT(measured, 0.5 * design.error) << nodes;
+    EXPECT_LT(measured, 2.0 * design.error) << nodes;
+  }
+}
+
+TEST(FetchError, NothingMeasuredIsNotWithinAnything) {
+  EXPECT_FALSE(FetchError{}.isWithin(1.0));
+  const LobeDistribution distribution = test::isotropicLobes(0.5, 0.5, 1);
+  const FetchCheck check(distribution, 8, test::quickModel(true), 5);
+  // a table whose look-ups have no inverse
+  TableInfo info;
+  info.axes = {singleNodeAxis("theta", "rad", 0.5), singleNodeAxis("alpha", "1", 0.25)};
+  info.channels = {"m00", "m11", "m22", "norm"};
+  const FetchError error = check.measure(Table(info, {0.0f, 1.0f, 1.0f, 1.0f}));
+  EXPECT_EQ(error.singular, 8u);
+  EXPECT_TRUE(std::isinf(error.mean));
+  EXPECT_FALSE(error.isWithin(1e9));
+}
+
 // One model for all: it takes a thousand fits.
 TEST(TableDesigns, OfAnIsotropicRange) {
   const LobeDistribution distribution = test::isotropicLobes(0.3, 0.7);
