@@ -112,10 +112,10 @@ TEST(TableDesigns, PredictionsComeNearForMirrorsToo) {
     const TableDesign design = designs.design({nodes, 1});
     const auto table = fitAxes(designs.axes(design), true, {"norm"}, options);
     ASSERT_TRUE(table.has_value());
-    // within two: shifts are beyond the lobe's own width
+    // within two and a half: shifts are beyond the lobe's own width
     const double measured = check.measure(shippedTable(*table, Precision::kHalf)).mean;
-    EXPECT_GT(measured, 0.5 * design.error) << nodes;
-    EXPECT_LT(measured, 2.0 * design.error) << nodes;
+    EXPECT_GT(measured, 0.4 * design.error) << nodes;
+    EXPECT_LT(measured, 2.5 * design.error) << nodes;
   }
 }
 
