@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/axes_argument.h"
 #include "app/commands.h"
 
 namespace ltcfit::app {
@@ -220,7 +221,7 @@ Provenance makeProvenance(const FitArguments& a) {
     p.command += fmt::format(" {} {}", flag, value);
     p.options.emplace_back(name, std::move(stored));
   };
-  if (iso) add("--axes", "axes", a.axes, a.axes);
+  if (iso || a.axes != kAnisotropicAxes) add("--axes", "axes", a.axes, a.axes);
   add("--fitter", "fitter", a.fitter, a.fitter);
   if (a.fitter != "l3") add("--preset", "preset", presetOf(a), presetOf(a));
   if (a.fitter == "l3") {

@@ -19,7 +19,7 @@ struct FitArguments {
   std::string output;
   std::string reportPath;
   std::string size;
-  std::string axes = "2017";
+  std::string axes;  // of tables: axes_argument.h
   std::string fitter = "light";
   std::string preset;  // empty: the fitter's default
   std::string family = "4";

@@ -1,7 +1,10 @@
 // ltcfit fit: iso, aniso, entry.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 
+#include "app/axes_argument.h"
 #include "app/commands.h"
 #include "app/fit_plan.h"
 #include "app/fit_runs.h"
@@ -35,7 +38,7 @@ int fitIso(const CLI::App& command, const FitArguments& a) {
   IsotropicTableOptions o;
   o.thetaNodes = size[0];
   o.alphaNodes = size[1];
-  o.axes = a.axes == "2016" ? IsotropicAxes::k2016 : IsotropicAxes::k2017;
+  o.axes = parseIsotropicAxes(a.axes);
   o.alphaFloor = a.alphaFloor;
   o.thetaMax = a.thetaMax;
   o = valid(o);
@@ -51,6 +54,7 @@ int fitAniso(const CLI::App& command, const FitArguments& a) {
   o.lambdaNodes = size[1];
   o.thetaNodes = size[2];
   o.phiNodes = size[3];
+  o.axes = parseAnisotropicAxes(a.axes);
   o.alphaFloor = a.alphaFloor;
   o.thetaMax = a.thetaMax;
   o = valid(o);
@@ -59,11 +63,25 @@ int fitAniso(const CLI::App& command, const FitArguments& a) {
   return fitTableCommand(a, planAnisotropicTable(o, symmetry));
 }
 
+void addAxes(CLI::App& command, FitArguments& a, const char* layouts) {
+  command
+      .add_option("--axes", a.axes,
+                  fmt::format("Where the nodes lie. {}\n"
+                              "(map and warp: t = s + s (1 - s) (A + B (1 - 2 s)), A > 0 moves nodes to the\n"
+                              "low end, B > 0 to both ends). Maps: linear; sqrt, of alpha and lambda;\n"
+                              "sqrt-one-minus-cos, of angles; knots:V0:V1:... anywhere (angles in degrees),\n"
+                              "which no look-up for shaders is made for: it would have to search them",
+                              layouts))
+      ->type_name("AXES")
+      ->capture_default_str();
+}
+
 void addIso(CLI::App& fit, CommandStatus& status) {
   CLI::App* const command = fit.add_subcommand("iso", "Fit the isotropic table (theta, alpha)");
   auto a = std::make_shared<FitArguments>();
   a->kind = FitKind::kIsotropic;
   a->size = "64x64";
+  a->axes = kIsotropicAxes;
   a->scorePoints = 64;
   addTableOptions(*command, *a);
   command
@@ -72,12 +90,10 @@ void addIso(CLI::App& fit, CommandStatus& status) {
           "Nodes along theta and alpha, 2..1024; alpha up to 100 with the default floor, 317 with 1e-5")
       ->type_name("THETAxALPHA")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--axes", a->axes,
-          "Axes: 2017 = sqrt(1 - cos theta), what engines read; 2016 = theta, linear. Both with sqrt(alpha)")
-      ->check(CLI::IsMember({"2016", "2017"}))
-      ->capture_default_str();
+  addAxes(*command, *a,
+          "2017: sqrt(1 - cos theta), what engines read; 2016: theta, linear; both with\n"
+          "sqrt(alpha). best: of least error, which is 2017. Or a list of axes that differ from 2017,\n"
+          "as theta=linear:0.3:-0.1");
   command
       ->add_option("--alpha-floor", a->alphaFloor,
                    "GGX alpha of the nodes at sqrt(alpha) = 0; 1e-5 to below the second node's")
@@ -99,6 +115,7 @@ void addAniso(CLI::App& fit, CommandStatus& status) {
   auto a = std::make_shared<FitArguments>();
   a->kind = FitKind::kAnisotropic;
   a->size = "8x8x8x8";
+  a->axes = kAnisotropicAxes;
   addTableOptions(*command, *a);
   command->add_option("--size", a->size, "Nodes along alpha, lambda, theta and phi, 2..64 each")
       ->type_name("ALPHAxLAMBDAxTHETAxPHI")
@@ -107,6 +124,10 @@ void addAniso(CLI::App& fit, CommandStatus& status) {
       ->add_option("--alpha-floor", a->alphaFloor,
                    "Smallest GGX alpha_x and alpha_y; 1e-5 to below the second node's alpha")
       ->capture_default_str();
+  addAxes(*command, *a,
+          "2022: alpha, lambda, theta, phi, all linear. best: of least error, for --layout lean and the\n"
+          "look-up that export makes. Or a list of axes that differ from 2022, as\n"
+          "alpha=sqrt,theta=linear:0.3:-0.1");
   addFitterOptions(*command, *a);
   command
       ->add_option("--symmetry", a->symmetry,

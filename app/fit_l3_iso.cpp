@@ -90,10 +90,12 @@ int fitIsotropicL3(const FitArguments& a, const IsotropicTableOptions& tableOpti
   }
   if (a.json) {
     nlohmann::ordered_json out = toJson(a, result, times);
+    addLookup(summarizeLookup(result.info), &out);
     if (score) addScore(*score, &out);
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!a.quiet) {
     printText(a, result, times);
+    printLookup(summarizeLookup(result.info));
     if (score) printScore(*score, a);
   }
   return refuseUnusable(result.unusable, a);

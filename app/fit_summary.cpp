@@ -5,8 +5,11 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "app/commands.h"
+#include "export/packing.h"
+#include "render/shader_variants.h"
 
 namespace ltcfit::app {
 namespace {
@@ -39,6 +42,40 @@ std::unique_ptr<Score> scoreFit(const Table& table, const FitArguments& a) {
   if (!table.isIsotropic()) return std::make_unique<Score>(scoreTables({&table}, scoring)[0]);
   const Table read = storedAs(table, MatrixStorage::kMinv, MatrixNormalization::kMiddleElement);
   return std::make_unique<Score>(scoreTables({&read}, scoring)[0]);
+}
+
+LookupSummary summarizeLookup(const TableInfo& info) {
+  LookupSummary lookup;
+  lookup.bytes = leanSize(info, Precision::kHalf).bytes;
+  try {
+    const ShaderCost cost = lookupCost(info);
+    lookup.fetches = cost.fetches;
+    lookup.operations = cost.expanded() - cost.fetches;
+  } catch (const std::invalid_argument& refusal) {
+    lookup.refusal = refusal.what();
+  }
+  return lookup;
+}
+
+void printLookup(const LookupSummary& lookup) {
+  fmt::print("as textures of halves (--layout lean) {} bytes; ", lookup.bytes);
+  if (lookup.refusal.empty()) {
+    fmt::print("its own look-up: {} fetches, {} scalar operations (check-gl --cost)\n", lookup.fetches,
+               lookup.operations);
+  } else {
+    fmt::print("no look-up of its own: {}\n", lookup.refusal);
+  }
+}
+
+void addLookup(const LookupSummary& lookup, nlohmann::ordered_json* out) {
+  nlohmann::ordered_json& json = (*out)["lookup"];
+  json["bytes"] = lookup.bytes;
+  if (lookup.refusal.empty()) {
+    json["fetches"] = lookup.fetches;
+    json["operations"] = lookup.operations;
+  } else {
+    json["refusal"] = lookup.refusal;
+  }
 }
 
 void printScore(const Score& score, const FitArguments& a) {

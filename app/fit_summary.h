@@ -1,8 +1,10 @@
 // What the fits of tables print about the result: times and errors on unseen samples.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "app/fit_arguments.h"
 #include "report/score.h"
@@ -28,6 +30,19 @@ class Stopwatch {
 /// Scores the table off-grid on samples the fit has not seen; null where the arguments ask for none. An
 /// isotropic table is read as its header is: shaders interpolate the inverse.
 std::unique_ptr<Score> scoreFit(const Table& table, const FitArguments& a);
+
+/// What a look-up of the table costs a shader that has the table's own look-up (export --format glsl-lookup):
+/// its size as --layout lean in halves, fetches and operations; or that there is none, and why.
+struct LookupSummary {
+  std::size_t bytes = 0;
+  int fetches = 0;
+  int operations = 0;   ///< ShaderCost::expanded, without the fetches
+  std::string refusal;  ///< not empty: none can be made
+};
+LookupSummary summarizeLookup(const TableInfo& info);
+void printLookup(const LookupSummary& lookup);
+/// Adds "lookup".
+void addLookup(const LookupSummary& lookup, nlohmann::ordered_json* out);
 
 void printScore(const Score& score, const FitArguments& a);
 /// Adds "off_grid".

@@ -163,7 +163,7 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
     // the axes, before the work and not after it
     const Table axes(plan.info, std::vector<float>(plan.nodes.size() * plan.info.channels.size(), 0.0f));
   } catch (const std::invalid_argument& error) {
-    throw InputError(std::string("--theta-max or --alpha-floor: ") + error.what());
+    throw InputError(std::string("--axes, --theta-max or --alpha-floor: ") + error.what());
   }
   const std::unique_ptr<Checkpoint> checkpoint = openCheckpoint(a, plan);
   const std::size_t resumed = checkpoint ? checkpoint->size() : 0;
@@ -188,10 +188,12 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
   const std::unique_ptr<Score> score = table ? scoreFit(*table, a) : nullptr;
   if (a.json) {
     nlohmann::ordered_json out = toJson(a, plan, result, times, resumed);
+    addLookup(summarizeLookup(info), &out);
     if (score) addScore(*score, &out);
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!a.quiet) {
     printText(a, plan, result, times, resumed);
+    printLookup(summarizeLookup(info));
     if (score) printScore(*score, a);
   }
   return refuseUnusable(result.unusable, a);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
 
 namespace ltcfit {
@@ -45,12 +46,13 @@ bool checkThetaMax(double thetaMax, double before, std::string* error) {
   return false;
 }
 
-AxisMap angleMap(IsotropicAxes axes) {
-  return axes == IsotropicAxes::k2017 ? AxisMap::kSqrtOneMinusCos : AxisMap::kLinear;
+bool checkEnds(const Axis& alpha, double alphaFloor, const Axis& theta, double thetaMax, std::string* error) {
+  return checkFloor(alphaFloor, alpha.values[1], error) &&
+         checkThetaMax(thetaMax, theta.values[theta.size() - 2], error);
 }
 
-Axis thetaAxis(AxisMap map, std::size_t nodes, double thetaMax) {
-  Axis axis = makeAxis("theta", "rad", map, nodes, 0.0, kHalfPi);
+Axis thetaAxis(const NodePlacement& placement, std::size_t nodes, double thetaMax) {
+  Axis axis = placedAxis("theta", placement, nodes);
   axis.values.back() = std::min(axis.values.back(), thetaMax);
   return axis;
 }
@@ -62,10 +64,13 @@ bool IsotropicTableOptions::isValid(std::string* error) const {
       !checkNodes("alpha", alphaNodes, kLargestIsotropicAxis, error)) {
     return false;
   }
-  const Axis theta = makeAxis("theta", "rad", angleMap(axes), thetaNodes, 0.0, kHalfPi);
-  const Axis alpha = makeAxis("alpha", "1", AxisMap::kSqrt, alphaNodes, 0.0, 1.0);
-  return checkFloor(alphaFloor, alpha.values[1], error) &&
-         checkThetaMax(thetaMax, theta.values[thetaNodes - 2], error);
+  try {
+    const Axis theta = placedAxis("theta", axes[0], thetaNodes);
+    return checkEnds(placedAxis("alpha", axes[1], alphaNodes), alphaFloor, theta, thetaMax, error);
+  } catch (const std::invalid_argument& refusal) {
+    *error = refusal.what();
+    return false;
+  }
 }
 
 bool AnisotropicTableOptions::isValid(std::string* error) const {
@@ -75,10 +80,16 @@ bool AnisotropicTableOptions::isValid(std::string* error) const {
       !checkNodes("phi", phiNodes, kLargestAnisotropicAxis, error)) {
     return false;
   }
-  return checkFloor(alphaFloor, 1.0 / static_cast<double>(alphaNodes - 1), error) &&
-         checkThetaMax(thetaMax,
-                       kHalfPi * static_cast<double>(thetaNodes - 2) / static_cast<double>(thetaNodes - 1),
-                       error);
+  try {
+    const Axis alpha = placedAxis("alpha", axes[0], alphaNodes);
+    placedAxis("lambda", axes[1], lambdaNodes);
+    const Axis theta = placedAxis("theta", axes[2], thetaNodes);
+    placedAxis("phi", axes[3], phiNodes);
+    return checkEnds(alpha, alphaFloor, theta, thetaMax, error);
+  } catch (const std::invalid_argument& refusal) {
+    *error = refusal.what();
+    return false;
+  }
 }
 
 MatrixFamily familyOf(const LobeParameters& p) {
@@ -95,8 +106,8 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& m, double angle) {
 }
 
 TablePlan planIsotropicTable(const IsotropicTableOptions& o) {
-  return planIsotropicTable({thetaAxis(angleMap(o.axes), o.thetaNodes, o.thetaMax),
-                             makeAxis("alpha", "1", AxisMap::kSqrt, o.alphaNodes, 0.0, 1.0, o.alphaFloor)},
+  return planIsotropicTable({thetaAxis(o.axes[0], o.thetaNodes, o.thetaMax),
+                             placedAxis("alpha", o.axes[1], o.alphaNodes, o.alphaFloor)},
                             o.alphaFloor);
 }
 
@@ -119,11 +130,11 @@ TablePlan planIsotropicTable(std::vector<Axis> axes, double alphaFloor) {
 }
 
 TablePlan planAnisotropicTable(const AnisotropicTableOptions& o, SymmetryMode symmetry) {
-  return planAnisotropicTable({makeAxis("alpha", "1", AxisMap::kLinear, o.alphaNodes, 0.0, 1.0, o.alphaFloor),
-                               makeAxis("lambda", "1", AxisMap::kLinear, o.lambdaNodes, 0.0, 1.0),
-                               thetaAxis(AxisMap::kLinear, o.thetaNodes, o.thetaMax),
-                               makeAxis("phi", "rad", AxisMap::kLinear, o.phiNodes, 0.0, kHalfPi)},
-                              o.alphaFloor, symmetry);
+  return planAnisotropicTable(
+      {placedAxis("alpha", o.axes[0], o.alphaNodes, o.alphaFloor),
+       placedAxis("lambda", o.axes[1], o.lambdaNodes), thetaAxis(o.axes[2], o.thetaNodes, o.thetaMax),
+       placedAxis("phi", o.axes[3], o.phiNodes)},
+      o.alphaFloor, symmetry);
 }
 
 TablePlan planAnisotropicTable(std::vector<Axis> axes, double alphaFloor, SymmetryMode symmetry) {

@@ -7,19 +7,17 @@
 #include <vector>
 
 #include "fit/matrix_family.h"
+#include "fit/node_placement.h"
 #include "ltc/table.h"
 
 namespace ltcfit {
 
-/// Axes of an isotropic table: the angle axis of the paper (theta, linear) or of the published table
-/// (sqrt(1 - cos theta)); alpha by its square root in both.
-enum class IsotropicAxes { k2016, k2017 };
-
 struct IsotropicTableOptions {
   std::size_t thetaNodes = 64;
   std::size_t alphaNodes = 64;
-  IsotropicAxes axes = IsotropicAxes::k2017;
-  double alphaFloor = 1e-4;  ///< alpha of the node at sqrt(alpha) = 0, in [1e-5, 1)
+  /// 2017 (isotropicPlacement)
+  IsotropicPlacement axes{NodePlacement{AxisMap::kSqrtOneMinusCos}, NodePlacement{AxisMap::kSqrt}};
+  double alphaFloor = 1e-4;  ///< alpha of the node at alpha = 0, in [1e-5, 1)
   /// theta of the last node, radians, at most pi/2. Grazing view needs no clamp; the 2017 table has 1.57.
   double thetaMax = 0.5 * std::numbers::pi;
 
@@ -32,7 +30,8 @@ struct AnisotropicTableOptions {
   std::size_t lambdaNodes = 8;
   std::size_t thetaNodes = 8;
   std::size_t phiNodes = 8;
-  double alphaFloor = 1e-4;  ///< smallest alpha_x and alpha_y, in [1e-5, 1)
+  AnisotropicPlacement axes{};  ///< 2022 (anisotropicPlacement)
+  double alphaFloor = 1e-4;     ///< smallest alpha_x and alpha_y, in [1e-5, 1)
   double thetaMax = 0.5 * std::numbers::pi;
 
   bool isValid(std::string* error) const;

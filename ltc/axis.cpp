@@ -56,13 +56,16 @@ AxisMap axisMapFromName(std::string_view name) {
                               "' (linear, sqrt or sqrt-one-minus-cos)");
 }
 
-bool isMonotone(const AxisWarp& warp) {
+double leastDensity(const AxisWarp& warp) {
   const auto [a, b] = warp;
-  if (!std::isfinite(a) || !std::isfinite(b)) return false;
+  if (!std::isfinite(a) || !std::isfinite(b)) return std::nan("");
   // the parabola 1 + a x + b (3 x^2 - 1) / 2 over [-1, 1]: least at an end, or where it turns
-  double least = 1.0 - std::abs(a) + b;
-  if (b > 0.0 && std::abs(a) < 3.0 * b) least = 1.0 - 0.5 * b - a * a / (6.0 * b);
-  return least >= kLeastWarpDensity - 1e-9;
+  if (b > 0.0 && std::abs(a) < 3.0 * b) return 1.0 - 0.5 * b - a * a / (6.0 * b);
+  return 1.0 - std::abs(a) + b;
+}
+
+bool isMonotone(const AxisWarp& warp) {
+  return leastDensity(warp) >= kLeastWarpDensity - 1e-9;  // false for NaN
 }
 
 double warpCoordinate(const AxisWarp& warp, double s) {

@@ -35,6 +35,8 @@ using AxisWarp = std::array<double, 2>;
 /// The least density, as a part of the mean one, that a warp may have.
 inline constexpr double kLeastWarpDensity = 0.05;
 
+/// The least density anywhere, as a part of the mean one; NaN for coefficients that are not finite.
+double leastDensity(const AxisWarp& warp);
 /// Whether the coefficients are finite and the density is nowhere below kLeastWarpDensity, up to rounding.
 bool isMonotone(const AxisWarp& warp);
 /// t of s and s of t, both 0..1: an inverse pair for monotone warps.

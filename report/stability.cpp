@@ -30,7 +30,7 @@ constexpr const char* kBrdf = "ggx";
 constexpr int kUnseenLobe = 16384;
 constexpr int kUnseenCosine = 8192;
 constexpr int kUnseenSlices = 101;  // others than those of any preset
-constexpr double kTableFloor = AnisotropicTableOptions{}.alphaFloor;
+const double kTableFloor = AnisotropicTableOptions{}.alphaFloor;
 constexpr int kTvSamples = 4096;
 // The start "neighbour".
 constexpr double kNeighbourAlpha = 1.5;
