@@ -157,7 +157,7 @@ ShaderTable tailoredShaderTable(const std::string& name, FormatOptions options =
 }
 
 TEST_F(GlRendererTest, AgreesWithTailoredTables) {
-  for (const char* name : {"isoRange", "isoRow", "anisoRange", "anisoOneAlpha", "anisoPair"}) {
+  for (const char* name : {"isoRange", "isoRow", "anisoRange", "anisoOneAlpha", "anisoPair", "anisoBest"}) {
     const ShaderTable table = tailoredShaderTable(name);
     ASSERT_TRUE(table.lookup) << name;
     GlRenderer renderer(table);

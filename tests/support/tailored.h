@@ -9,6 +9,7 @@
 
 #include "export/packing.h"
 #include "export/read_table.h"
+#include "fit/node_placement.h"
 #include "ltc/resample.h"
 
 namespace ltcfit::test {
@@ -56,7 +57,14 @@ inline Axis angleAxis(const char* name, AxisMap map, std::size_t n, double low, 
   return makeAxis(name, "rad", map, n, low, high, 0.0, warp);
 }
 
-/// Of every kind of axis and every set of channels one, and the two full ones at the end.
+/// `fit aniso --axes best --size 5x4x6x3`.
+inline std::vector<Axis> bestAxes() {
+  const AnisotropicPlacement best = anisotropicPlacement("best");
+  return {placedAxis("alpha", best[0], 5), placedAxis("lambda", best[1], 4), placedAxis("theta", best[2], 6),
+          placedAxis("phi", best[3], 3)};
+}
+
+/// Of every kind of axis and every set of channels one, the two full ones, and one of the best axes.
 inline const std::vector<Tailored>& tailoredTables() {
   constexpr AxisMap kLinear = AxisMap::kLinear;
   constexpr AxisMap kSqrt = AxisMap::kSqrt;
@@ -90,7 +98,8 @@ inline const std::vector<Tailored>& tailoredTables() {
       tailored("anisoPair", {alphaAxis(kLinear, 2, 0.2, 0.3), lambdaAxis(kLinear, 2, 0.5, 0.7),
                              singleNodeAxis("theta", "rad", 0.6), singleNodeAxis("phi", "rad", 0.4)}),
       {"isoFull", asLean(readTable(LTCFIT_DATA_DIR "/ltc_iso.json"))},
-      {"anisoFull", asLean(readTable(LTCFIT_DATA_DIR "/ltc_aniso.json"))}};
+      {"anisoFull", asLean(readTable(LTCFIT_DATA_DIR "/ltc_aniso.json"))},
+      tailored("anisoBest", bestAxes())};
   return tables;
 }
 
