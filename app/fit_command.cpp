@@ -92,8 +92,8 @@ void addIso(CLI::App& fit, CommandStatus& status) {
       ->capture_default_str();
   addAxes(*command, *a,
           "2017: sqrt(1 - cos theta), what engines read; 2016: theta, linear; both with\n"
-          "sqrt(alpha). best: of least error, which is 2017. Or a list of axes that differ from 2017,\n"
-          "as theta=linear:0.3:-0.1");
+          "sqrt(alpha). best: of least error, for --layout lean and the look-up that export makes. Or a\n"
+          "list of axes that differ from 2017, as theta=linear:0.3:-0.1");
   command
       ->add_option("--alpha-floor", a->alphaFloor,
                    "GGX alpha of the nodes at sqrt(alpha) = 0; 1e-5 to below the second node's")

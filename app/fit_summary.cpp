@@ -50,7 +50,8 @@ LookupSummary summarizeLookup(const TableInfo& info) {
   try {
     const ShaderCost cost = lookupCost(info);
     lookup.fetches = cost.fetches;
-    lookup.operations = cost.expanded() - cost.fetches;
+    lookup.operations = cost.total() - cost.fetches;
+    lookup.expanded = cost.expanded() - cost.fetches;
   } catch (const std::invalid_argument& refusal) {
     lookup.refusal = refusal.what();
   }
@@ -60,8 +61,8 @@ LookupSummary summarizeLookup(const TableInfo& info) {
 void printLookup(const LookupSummary& lookup) {
   fmt::print("as textures of halves (--layout lean) {} bytes; ", lookup.bytes);
   if (lookup.refusal.empty()) {
-    fmt::print("its own look-up: {} fetches, {} scalar operations (check-gl --cost)\n", lookup.fetches,
-               lookup.operations);
+    fmt::print("its own look-up: {} fetches, {} operations ({} as GPUs take atan and division)\n",
+               lookup.fetches, lookup.operations, lookup.expanded);
   } else {
     fmt::print("no look-up of its own: {}\n", lookup.refusal);
   }
@@ -73,6 +74,7 @@ void addLookup(const LookupSummary& lookup, nlohmann::ordered_json* out) {
   if (lookup.refusal.empty()) {
     json["fetches"] = lookup.fetches;
     json["operations"] = lookup.operations;
+    json["operations_expanded"] = lookup.expanded;
   } else {
     json["refusal"] = lookup.refusal;
   }

@@ -36,7 +36,8 @@ std::unique_ptr<Score> scoreFit(const Table& table, const FitArguments& a);
 struct LookupSummary {
   std::size_t bytes = 0;
   int fetches = 0;
-  int operations = 0;   ///< ShaderCost::expanded, without the fetches
+  int operations = 0;   ///< ShaderCost::total, without the fetches
+  int expanded = 0;     ///< ShaderCost::expanded, without the fetches
   std::string refusal;  ///< not empty: none can be made
 };
 LookupSummary summarizeLookup(const TableInfo& info);

@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, 2> kIsotropicAxisNames{"theta", "a
 inline constexpr std::array<std::string_view, 4> kAnisotropicAxisNames{"alpha", "lambda", "theta", "phi"};
 
 /// "2017": sqrt(1 - cos theta), as engines read it, the default; "2016": theta, linear, as Heitz et al. 2016
-/// print it; both with the root of alpha. "best": of least measured error at a given size, which is 2017.
+/// print it; both with the root of alpha. "best": of least measured error, warped.
 /// Another name throws std::invalid_argument.
 IsotropicPlacement isotropicPlacement(std::string_view name);
 
