@@ -40,6 +40,8 @@ constexpr double kAllParts = kAllWeight * (1 << kPartBits);
 constexpr std::int32_t kOctave = 1 << kCellBits;
 // The scale of the cells against the width of the start, projected.
 constexpr double kScaleFactor = 0.5;
+// Of the differences of CDFs, as a part of their mean, below which the curvature no longer grows.
+constexpr double kCurvatureFloor = 0.3;
 // Octaves of the longest axis: 2^30 times the scale. A lobe narrower than 1e-9 keeps its core.
 constexpr int kMostOctaves = 30;
 
@@ -50,8 +52,8 @@ struct CellRange {
 
 // The cell of each point on a slice, and the part of the cell that lies above it: 2^kShift times the mean
 // over the cell of the step that the point adds to the CDF.
-LTCFIT_VECTOR_CLONES void binSlice(const ProjectedCdfLoss::Slice& s, std::size_t n, const float* px,
-                                   const float* py, const float* pz, std::int32_t* cell, std::int32_t* part,
+LTCFIT_VECTOR_CLONES void binSlice(const ProjectedSlice& s, std::size_t n, const float* px, const float* py,
+                                   const float* pz, std::int32_t* cell, std::int32_t* part,
                                    CellRange* range) {
   const std::int32_t middle = s.octaves << kCellBits;
   const std::int32_t largest = (s.octaves << 23) - 1;
@@ -80,7 +82,7 @@ LTCFIT_VECTOR_CLONES void binSlice(const ProjectedCdfLoss::Slice& s, std::size_t
 }
 
 // Adds sign * (x, y, z) of the slice to the pull on each sample.
-LTCFIT_VECTOR_CLONES void pullSamples(const ProjectedCdfLoss::Slice& s, std::size_t n, const float* sign,
+LTCFIT_VECTOR_CLONES void pullSamples(const ProjectedSlice& s, std::size_t n, const float* sign,
                                       const std::int32_t* cell, float* gx, float* gy, float* gz) {
 #pragma omp simd
   for (std::size_t i = 0; i < n; ++i) {
@@ -109,10 +111,65 @@ std::vector<Vector3d> familySlices(MatrixFamily family, int count) {
   return out;
 }
 
-ProjectedCdfLoss::ProjectedCdfLoss(const LobeSamples& target, const Matrix3d& start,
-                                   const LobeSamples& cosine, const std::vector<Vector3d>& slices) {
+ProjectedLobe::ProjectedLobe(const LobeSamples& target, const Matrix3d& start,
+                             const std::vector<Vector3d>& directions) {
   const Matrix3d scaled = start / start.col(2).norm();
-  reference_ = scaled.col(2);
+  reference = scaled.col(2);
+  std::size_t cells = 0;
+  for (const Vector3d& w : directions) {
+    const Vector3d projected = scaled.transpose() * w;
+    const double apertures = scaled.leftCols<2>().norm();
+    // the width to first order, and to second order where the slice is the lobe's own axis
+    const double width = std::max(std::hypot(projected.x(), projected.y()),
+                                  0.25 * std::min(1.0, apertures * apertures) * std::abs(projected.z()));
+    const double scale = std::max(kScaleFactor * width, 1e-12);
+    ProjectedSlice s{};
+    s.x = static_cast<float>(w.x());
+    s.y = static_cast<float>(w.y());
+    s.z = static_cast<float>(w.z());
+    s.scale = static_cast<float>(scale);
+    s.inverse = 1.0f / s.scale;
+    s.octaves = std::min(kMostOctaves, 1 + static_cast<int>(std::ceil(std::log2(1.0 + 2.0 / scale))));
+    s.at = cells;
+    const std::size_t own = static_cast<std::size_t>(s.octaves) << (kCellBits + 1);
+    cells += own;
+    mostCells = std::max(mostCells, own);
+    slices.push_back(s);
+  }
+  cdf.resize(cells);
+
+  const std::size_t n = target.directions.size();
+  std::vector<float> x(n), y(n), z(n);
+  std::vector<std::int32_t> cell(n), part(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3d d = target.directions[i] - reference;
+    x[i] = static_cast<float>(d.x());
+    y[i] = static_cast<float>(d.y());
+    z[i] = static_cast<float>(d.z());
+  }
+  std::vector<double> mass;
+  for (ProjectedSlice& s : slices) {
+    CellRange range{};
+    binSlice(s, n, x.data(), y.data(), z.data(), cell.data(), part.data(), &range);
+    s.first = range.first;
+    s.last = range.last;
+    const std::size_t own = static_cast<std::size_t>(s.octaves) << (kCellBits + 1);
+    mass.assign(own + 1, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto c = static_cast<std::size_t>(cell[i]);
+      const double now = target.weights[i] * static_cast<double>(part[i]) / kFullPart;
+      mass[c] += now;
+      mass[c + 1] += target.weights[i] - now;
+    }
+    double sum = 0.0;
+    for (std::size_t c = 0; c < own; ++c) {
+      sum += mass[c];
+      cdf[s.at + c] = std::llround(sum * kAllParts);
+    }
+  }
+}
+
+ProjectedCosine::ProjectedCosine(const LobeSamples& cosine) : reference_(Vector3d::Zero()) {
   for (const Vector3d& x : cosine.directions) {
     cosX_.push_back(x.x());
     cosY_.push_back(x.y());
@@ -127,71 +184,15 @@ ProjectedCdfLoss::ProjectedCdfLoss(const LobeSamples& target, const Matrix3d& st
     weight_.push_back(static_cast<std::int32_t>(upTo - given));
     given = upTo;
   }
-  const std::size_t targets = target.directions.size();
-  const std::size_t most = std::max(cosX_.size(), targets);
-  for (auto* v : {&x_, &y_, &z_}) v->resize(most);
-  for (auto* v : {&gx_, &gy_, &gz_}) v->resize(cosX_.size());
+  for (auto* v : {&x_, &y_, &z_, &gx_, &gy_, &gz_}) v->resize(cosX_.size());
   invLength_.resize(cosX_.size());
-  cell_.resize(most);
-  part_.resize(most);
-
-  std::size_t cells = 0;
-  std::size_t widest = 0;
-  for (const Vector3d& w : slices) {
-    const Vector3d projected = scaled.transpose() * w;
-    const double apertures = scaled.leftCols<2>().norm();
-    // the width to first order, and to second order where the slice is the lobe's own axis
-    const double width = std::max(std::hypot(projected.x(), projected.y()),
-                                  0.25 * std::min(1.0, apertures * apertures) * std::abs(projected.z()));
-    const double scale = std::max(kScaleFactor * width, 1e-12);
-    Slice s{};
-    s.x = static_cast<float>(w.x());
-    s.y = static_cast<float>(w.y());
-    s.z = static_cast<float>(w.z());
-    s.scale = static_cast<float>(scale);
-    s.inverse = 1.0f / s.scale;
-    s.octaves = std::min(kMostOctaves, 1 + static_cast<int>(std::ceil(std::log2(1.0 + 2.0 / scale))));
-    s.at = cells;
-    const std::size_t own = static_cast<std::size_t>(s.octaves) << (kCellBits + 1);
-    cells += own;
-    widest = std::max(widest, own);
-    slices_.push_back(s);
-  }
-  targetCdf_.resize(cells);
-  histogram_.assign(2 * widest, 0);
-  sign_.resize(widest);
-
-  for (std::size_t i = 0; i < targets; ++i) {
-    const Vector3d d = target.directions[i] - reference_;
-    x_[i] = static_cast<float>(d.x());
-    y_[i] = static_cast<float>(d.y());
-    z_[i] = static_cast<float>(d.z());
-  }
-  std::vector<double> mass;
-  for (Slice& s : slices_) {
-    CellRange range{};
-    binSlice(s, targets, x_.data(), y_.data(), z_.data(), cell_.data(), part_.data(), &range);
-    s.first = range.first;
-    s.last = range.last;
-    const std::size_t own = static_cast<std::size_t>(s.octaves) << (kCellBits + 1);
-    mass.assign(own + 1, 0.0);
-    for (std::size_t i = 0; i < targets; ++i) {
-      const auto c = static_cast<std::size_t>(cell_[i]);
-      const double now = target.weights[i] * static_cast<double>(part_[i]) / kFullPart;
-      mass[c] += now;
-      mass[c + 1] += target.weights[i] - now;
-    }
-    double cdf = 0.0;
-    for (std::size_t c = 0; c < own; ++c) {
-      cdf += mass[c];
-      targetCdf_[s.at + c] = std::llround(cdf * kAllParts);
-    }
-  }
+  cell_.resize(cosX_.size());
+  part_.resize(cosX_.size());
 }
 
 // Neighbouring samples go to two histograms, side by side: an addition need not wait for the one before where
 // both hit one cell.
-void ProjectedCdfLoss::addToHistogram(std::size_t n) {
+void ProjectedCosine::addToHistogram(std::size_t n) {
   const auto add = [&](std::size_t i, std::size_t side) {
     const auto w = static_cast<std::uint64_t>(weight_[i]);
     histogram_[2 * static_cast<std::size_t>(cell_[i]) + side] +=
@@ -206,8 +207,9 @@ void ProjectedCdfLoss::addToHistogram(std::size_t n) {
 
 // Area between the two CDFs; leaves the derivatives' signs, and the histogram empty. All samples of both lie
 // in the cells from `first` to `last`, so that both CDFs are 0 before and 1 after these.
-double ProjectedCdfLoss::areaBetweenCdfs(const Slice& s, std::int32_t first, std::int32_t last) {
-  const std::int64_t* const target = targetCdf_.data() + s.at;
+double ProjectedCosine::areaBetweenCdfs(const ProjectedLobe& lobe, const ProjectedSlice& s,
+                                        std::int32_t first, std::int32_t last) {
+  const std::int64_t* const target = lobe.cdf.data() + s.at;
   const std::int32_t half = s.octaves << kCellBits;
   std::uint64_t before = 0;
   double area = 0.0;
@@ -220,6 +222,7 @@ double ProjectedCdfLoss::areaBetweenCdfs(const Slice& s, std::int32_t first, std
       const auto cdf = static_cast<std::int64_t>((before << kPartBits) + (h & kPartsMask));
       before += h >> kWeightBit;
       const std::int64_t difference = cdf - target[c];
+      difference_[at] = difference;
       sum += std::abs(difference);
       sign_[at] = static_cast<float>((difference < 0) - (difference > 0));
     }
@@ -229,9 +232,67 @@ double ProjectedCdfLoss::areaBetweenCdfs(const Slice& s, std::int32_t first, std
   return area / kAllParts * static_cast<double>(s.scale) / kOctave;
 }
 
-double ProjectedCdfLoss::operator()(const Matrix3d& m, Matrix3d* gradient) {
-  const std::size_t n = cosX_.size();
-  for (std::size_t i = 0; i < n; ++i) {
+// To each cell's mean of F, P adds motion / width of the cell; the loss is the sum of width |F - G|, of which
+// width (F - G)^2 / |F - G| is the majorant.
+void ProjectedCosine::addCurvature(const ProjectedSlice& s, std::int32_t first, std::int32_t last,
+                                   const Matrix3d& m, Eigen::Matrix<double, 9, 9>* curvature) {
+  const auto from = static_cast<std::size_t>(first);
+  const auto to = static_cast<std::size_t>(last);
+  std::fill(motion_.begin() + first, motion_.begin() + last + 1, std::array<double, 9>{});
+  const Vector3d w(static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z));
+  for (std::size_t i = 0; i < cosX_.size(); ++i) {
+    const Vector3d y = reference_ + Vector3d(static_cast<double>(x_[i]), static_cast<double>(y_[i]),
+                                             static_cast<double>(z_[i]));
+    const Vector3d v = static_cast<double>(weight_[i]) * invLength_[i] * (w - y.dot(w) * y);
+    const Vector3d u = m.transpose() * v;
+    std::array<double, 9>& a = motion_[static_cast<std::size_t>(cell_[i])];
+    const std::array<double, 3> x{cosX_[i], cosY_[i], cosZ_[i]};
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c) a[3 * r + c] += u[static_cast<Eigen::Index>(r)] * x[c];
+  }
+  double sum = 0.0;
+  double squares = 0.0;
+  const std::size_t half = static_cast<std::size_t>(s.octaves) << kCellBits;
+  const auto widthOf = [&](std::size_t c) {
+    return std::ldexp(static_cast<double>(s.scale) / kOctave,
+                      static_cast<int>((c < half ? half - 1 - c : c - half) >> kCellBits));
+  };
+  for (std::size_t c = from; c <= to; ++c) {
+    const double d = std::abs(static_cast<double>(difference_[c])) / kAllParts;
+    sum += widthOf(c) * d;
+    squares += widthOf(c) * d * d;
+  }
+  const double floor = sum > 0.0 ? kCurvatureFloor * squares / sum : 1.0 / kAllWeight;
+  for (std::size_t c = from; c <= to; ++c) {
+    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> a(motion_[c].data());
+    const double d = std::abs(static_cast<double>(difference_[c])) / kAllParts;
+    curvature->selfadjointView<Eigen::Lower>().rankUpdate(
+        a, 1.0 / (kAllWeight * kAllWeight * widthOf(c) * (d + floor)));
+  }
+}
+
+// d y / d M = (I - y y^T) x^T / |M x|, y = M x / |M x|
+Matrix3d ProjectedCosine::gradientOfPulls() const {
+  Matrix3d sum = Matrix3d::Zero();
+  for (std::size_t i = 0; i < cosX_.size(); ++i) {
+    const Vector3d g(static_cast<double>(gx_[i]), static_cast<double>(gy_[i]), static_cast<double>(gz_[i]));
+    const Vector3d y = reference_ + Vector3d(static_cast<double>(x_[i]), static_cast<double>(y_[i]),
+                                             static_cast<double>(z_[i]));
+    const Vector3d v = static_cast<double>(weight_[i]) / kAllWeight * invLength_[i] * (g - y.dot(g) * y);
+    sum += v * Eigen::RowVector3d(cosX_[i], cosY_[i], cosZ_[i]);
+  }
+  return sum;
+}
+
+void ProjectedCosine::project(const ProjectedLobe& lobe, const Matrix3d& m) {
+  reference_ = lobe.reference;
+  if (sign_.size() < lobe.mostCells) {
+    histogram_.assign(2 * lobe.mostCells, 0);
+    sign_.resize(lobe.mostCells);
+    difference_.resize(lobe.mostCells);
+    motion_.resize(lobe.mostCells);
+  }
+  for (std::size_t i = 0; i < cosX_.size(); ++i) {
     const double a = m(0, 0) * cosX_[i] + m(0, 1) * cosY_[i] + m(0, 2) * cosZ_[i];
     const double b = m(1, 0) * cosX_[i] + m(1, 1) * cosY_[i] + m(1, 2) * cosZ_[i];
     const double c = m(2, 0) * cosX_[i] + m(2, 1) * cosY_[i] + m(2, 2) * cosZ_[i];
@@ -241,34 +302,47 @@ double ProjectedCdfLoss::operator()(const Matrix3d& m, Matrix3d* gradient) {
     y_[i] = static_cast<float>(b * inv - reference_.y());
     z_[i] = static_cast<float>(c * inv - reference_.z());
   }
-  if (gradient != nullptr) {
-    std::fill(gx_.begin(), gx_.end(), 0.0f);
-    std::fill(gy_.begin(), gy_.end(), 0.0f);
-    std::fill(gz_.begin(), gz_.end(), 0.0f);
-  }
-  double loss = 0.0;
-  for (const Slice& s : slices_) {
+  for (auto* v : {&gx_, &gy_, &gz_}) std::fill(v->begin(), v->end(), 0.0f);
+}
+
+double ProjectedCosine::loss(const ProjectedLobe& lobe, const Matrix3d& m, Matrix3d* gradient) {
+  const std::size_t n = cosX_.size();
+  project(lobe, m);
+  double sum = 0.0;
+  for (const ProjectedSlice& s : lobe.slices) {
     CellRange range{};
     binSlice(s, n, x_.data(), y_.data(), z_.data(), cell_.data(), part_.data(), &range);
     addToHistogram(n);
-    loss += areaBetweenCdfs(s, std::min(s.first, range.first), std::max(s.last, range.last));
+    sum += areaBetweenCdfs(lobe, s, std::min(s.first, range.first), std::max(s.last, range.last));
     if (gradient == nullptr) continue;
     pullSamples(s, n, sign_.data(), cell_.data(), gx_.data(), gy_.data(), gz_.data());
   }
-  const double perSlice = 1.0 / static_cast<double>(slices_.size());
-  if (gradient != nullptr) {
-    // d y / d M = (I - y y^T) x^T / |M x|, y = M x / |M x|
-    Matrix3d sum = Matrix3d::Zero();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vector3d g(static_cast<double>(gx_[i]), static_cast<double>(gy_[i]), static_cast<double>(gz_[i]));
-      const Vector3d y = reference_ + Vector3d(static_cast<double>(x_[i]), static_cast<double>(y_[i]),
-                                               static_cast<double>(z_[i]));
-      const Vector3d v = static_cast<double>(weight_[i]) / kAllWeight * invLength_[i] * (g - y.dot(g) * y);
-      sum += v * Eigen::RowVector3d(cosX_[i], cosY_[i], cosZ_[i]);
-    }
-    *gradient = perSlice * sum;
+  const double perSlice = 1.0 / static_cast<double>(lobe.slices.size());
+  if (gradient != nullptr) *gradient = perSlice * gradientOfPulls();
+  return sum * perSlice;
+}
+
+double ProjectedCosine::loss(const ProjectedLobe& lobe, const Matrix3d& m, Derivatives* derivatives) {
+  const std::size_t n = cosX_.size();
+  project(lobe, m);
+  derivatives->curvature.setZero();
+  double sum = 0.0;
+  for (const ProjectedSlice& s : lobe.slices) {
+    CellRange range{};
+    binSlice(s, n, x_.data(), y_.data(), z_.data(), cell_.data(), part_.data(), &range);
+    addToHistogram(n);
+    const std::int32_t first = std::min(s.first, range.first);
+    const std::int32_t last = std::max(s.last, range.last);
+    sum += areaBetweenCdfs(lobe, s, first, last);
+    pullSamples(s, n, sign_.data(), cell_.data(), gx_.data(), gy_.data(), gz_.data());
+    addCurvature(s, first, last, m, &derivatives->curvature);
   }
-  return loss * perSlice;
+  const double perSlice = 1.0 / static_cast<double>(lobe.slices.size());
+  const Matrix3d gradient = perSlice * m.transpose() * gradientOfPulls();
+  for (Eigen::Index k = 0; k < 9; ++k) derivatives->gradient[k] = gradient(k / 3, k % 3);
+  derivatives->curvature *= perSlice;
+  derivatives->curvature.triangularView<Eigen::StrictlyUpper>() = derivatives->curvature.transpose().eval();
+  return sum * perSlice;
 }
 
 }  // namespace ltcfit

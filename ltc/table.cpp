@@ -265,36 +265,44 @@ Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization nor
   return Table(std::move(info), std::move(data));
 }
 
-TableEntry Table::fetch(const LobeParameters& asked) const {
-  const CanonicalLobe lobe =
-      isIsotropic() ? CanonicalLobe{asked, Eigen::Matrix3d::Identity()} : canonicalLobe(asked);
-  const LobeParameters& p = lobe.parameters;
-  const std::array<double, 4> isotropic{p.theta, p.alphaX, 0.0, 0.0};
+LookUpNodes lookUpNodes(const std::vector<Axis>& axes, const LobeParameters& p) {
+  const std::size_t dims = axes.size();
   // at alpha 0 all lambdas are the same lobe, that of the floor
   const double lambda = p.alphaX > 0.0 ? p.alphaY / p.alphaX : 1.0;
-  const std::array<double, 4> anisotropic{p.alphaX, lambda, p.theta, p.phi};
-  const std::array<double, 4>& value = isIsotropic() ? isotropic : anisotropic;
-  const std::size_t dims = info_.axes.size();
+  const std::array<double, 4> value = dims == 2 ? std::array<double, 4>{p.theta, p.alphaX, 0.0, 0.0}
+                                                : std::array<double, 4>{p.alphaX, lambda, p.theta, p.phi};
   std::array<std::size_t, 4> base{};
   std::array<double, 4> fraction{};
   for (std::size_t a = 0; a < dims; ++a) {
-    const double t = info_.axes[a].texelFromValue(value[a]);
-    base[a] = std::min(static_cast<std::size_t>(t), std::max<std::size_t>(info_.axes[a].size(), 2) - 2);
+    const double t = axes[a].texelFromValue(value[a]);
+    base[a] = std::min(static_cast<std::size_t>(t), std::max<std::size_t>(axes[a].size(), 2) - 2);
     fraction[a] = t - static_cast<double>(base[a]);
   }
-  std::vector<double> channels(channelCount(), 0.0);
+  LookUpNodes out;
   for (std::size_t corner = 0; corner < (std::size_t{1} << dims); ++corner) {
-    std::array<std::size_t, 4> node = base;
+    std::size_t node = 0;
     double weight = 1.0;
     for (std::size_t a = 0; a < dims; ++a) {
       const bool upper = ((corner >> a) & 1u) != 0;
-      node[a] += upper ? 1 : 0;
+      node = node * axes[a].size() + base[a] + (upper ? 1 : 0);
       weight *= upper ? fraction[a] : 1.0 - fraction[a];
     }
     if (weight == 0.0) continue;
-    const std::size_t offset = index(std::span(node).first(dims));
+    out.node[out.count] = node;
+    out.weight[out.count++] = weight;
+  }
+  return out;
+}
+
+TableEntry Table::fetch(const LobeParameters& asked) const {
+  const CanonicalLobe lobe =
+      isIsotropic() ? CanonicalLobe{asked, Eigen::Matrix3d::Identity()} : canonicalLobe(asked);
+  const LookUpNodes nodes = lookUpNodes(info_.axes, lobe.parameters);
+  std::vector<double> channels(channelCount(), 0.0);
+  for (std::size_t k = 0; k < nodes.count; ++k) {
+    const std::size_t offset = nodes.node[k] * channelCount();
     for (std::size_t c = 0; c < channels.size(); ++c)
-      channels[c] += weight * static_cast<double>(data_[offset + c]);
+      channels[c] += nodes.weight[k] * static_cast<double>(data_[offset + c]);
   }
   TableEntry entry = unpack(channels.data());
   if (!isIsotropic()) {

@@ -72,6 +72,17 @@ struct TableEntry {
   std::optional<double> fresnel;
 };
 
+/// The nodes that a look-up interpolates, by their number in the order of the data, and their weights, which
+/// sum to 1: up to 16 of an anisotropic table, 4 of an isotropic one. Nodes of weight 0 are left out.
+struct LookUpNodes {
+  std::array<std::size_t, 16> node{};
+  std::array<double, 16> weight{};
+  std::size_t count = 0;
+};
+/// Of the lobe at these parameters, alphaX >= alphaY, phi in [0, pi/2] (canonicalLobe). Parameters outside of
+/// the axes, valid for a Table, are clamped to them.
+LookUpNodes lookUpNodes(const std::vector<Axis>& axes, const LobeParameters& parameters);
+
 /// An immutable, checked table.
 class Table {
  public:

@@ -1,0 +1,103 @@
+// Joint refinement: all entries of a table at once, for what is read between its nodes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fit/lookup_loss.h"
+#include "fit/optimizer.h"
+#include "ltc/table.h"
+
+namespace ltcfit {
+
+/// What the parts of the loss of a look-up count. Each is an error over its mean among direct fits, so that
+/// the parts are alike; all >= 0, not all 0.
+struct RefinementWeights {
+  double sw = 1.3;           ///< sliced Wasserstein distance
+  double swRel = 0.8;        ///< the same over the lobe's spread: sharp lobes count as much as wide ones
+  double ratio = 0.5;        ///< the same over that of the point's direct fit: the interpolation ratio
+  double form = 0.9;         ///< quads about the lobe
+  double light = 0.65;       ///< lights over the hemisphere, and mass below the horizon
+  double lightRatio = 0.05;  ///< the same over that of the point's direct fit
+};
+
+struct RefinementOptions {
+  LookUpLossOptions loss{.slices = 16,
+                         .targetSamples = 2048,
+                         .samples = 512,
+                         .lights = {.lights = 96, .sizeExponent = 0.0},
+                         .quads = 40};
+  RefinementWeights weights;
+  int points = 32768;  ///< look-ups over the table's domain, 16..2^22
+  /// The nodes are look-ups too, each counting as much as this many of the others, 0..1000.
+  double nodeWeight = 1.0;
+  /// Of neighbours' changes to differ, 0..1000: the root of what a difference of 1 costs. Keeps entries that
+  /// few look-ups see from making up their own.
+  double smoothness = 0.35;
+  /// The same for changes at all.
+  double prior = 0.03;
+  int iterations = 15;  ///< of Levenberg-Marquardt, 1..1000
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: as many as OpenMP offers; does not change the result
+
+  /// False with a message naming the option, its value and its range.
+  bool isValid(std::string* error) const;
+};
+
+/// Where a refinement stands.
+struct RefinementState {
+  int iterations = 0;
+  double radius = 0.0;             ///< of the trust region; 0: as at the start
+  double cost = 0.0;               ///< mean over the look-ups
+  std::vector<double> parameters{};  ///< of all entries, in order; empty: as at the start
+};
+
+struct RefinementResult {
+  Table table;
+  double startCost = 0.0;
+  RefinementState state{};
+  Termination termination = Termination::kFailure;
+  std::size_t unusable = 0;  ///< nodes without an inverse in float32, or with det <= 0
+};
+
+class RefinementObserver {
+ public:
+  virtual ~RefinementObserver() = default;
+  /// While look-ups are prepared.
+  virtual void prepared(std::size_t done, std::size_t total) = 0;
+  /// After each iteration, from the calling thread. May throw: that ends the refinement.
+  virtual void iterated(const RefinementState& state) = 0;
+};
+
+/// Minimises the sum over random look-ups, and nodes, of LookUpLoss over all entries of the table together
+/// (sparse Levenberg-Marquardt, Ceres). What is interpolated is what the table stores (info().stores), in its
+/// normalization; symmetries and equal lobes are kept by construction: eq. 13 to 16 of KT et al. 2022 and
+/// lambda = 1 stay exact. Norm and Fresnel stay as they are.
+///
+/// Look-ups are drawn evenly over the axes: uniformly in alpha, lambda, theta and phi, in sqrt(alpha) and
+/// sqrt(1 - cos theta) for isotropic tables, more of less weight where lobes change fast. `resumed`, or null:
+/// where an earlier call of the same arguments stood. `options` valid. Throws std::invalid_argument for an
+/// unknown brdf, an anisotropic table that does not store M, one whose nodes are no LTCs, and a `resumed` of
+/// another table.
+RefinementResult refineTable(const Table& table, const RefinementOptions& options,
+                             const RefinementState* resumed = nullptr,
+                             RefinementObserver* observer = nullptr);
+
+/// Means over look-ups.
+struct FreshErrors {
+  LookUpErrors mean;         ///< errors of 1 where a look-up yields no LTC
+  double swRel = 0.0;        ///< of mean.sw over the lobe's spread
+  double below = 0.0;        ///< mass below the horizon
+  std::size_t unusable = 0;  ///< look-ups that yield no LTC (det <= 0)
+};
+
+/// Of direct fits of `count` look-ups that no refinement with this seed has seen, drawn evenly over the axes
+/// of the first table, then of what each table yields there.
+std::vector<FreshErrors> errorsAtFreshPoints(const std::vector<const Table*>& tables,
+                                             const LookUpLossOptions& options, std::size_t count,
+                                             std::uint64_t seed, int threads);
+
+}  // namespace ltcfit
