@@ -37,8 +37,8 @@ struct LookUpErrors {
 /// By P of M (I + P) at P = 0, row by row.
 struct LossDerivatives {
   Eigen::Matrix<double, 9, 1> gradient;
-  /// Of a quadratic that touches the loss and, where its parts are linear in P, is nowhere below it: positive
-  /// semidefinite, gradient^T curvature^-1 gradient <= 2 loss.
+  /// Of a quadratic that touches the loss and, where its parts are linear in P, lies above it (but see
+  /// ProjectedCosine::Derivatives): positive semidefinite, gradient^T curvature^-1 gradient below 2 loss.
   Eigen::Matrix<double, 9, 9> curvature;
 };
 

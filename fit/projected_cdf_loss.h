@@ -55,9 +55,9 @@ class ProjectedCosine {
   /// Derivatives by the entries of P, row by row, for the LTC of M (I + P) at P = 0.
   struct Derivatives {
     Eigen::Matrix<double, 9, 1> gradient;
-    /// Of the quadratic that touches the loss and, as far as the CDFs are linear in P, is nowhere below it
-    /// (iteratively reweighted least squares): positive semidefinite, gradient^T curvature^-1 gradient <=
-    /// loss.
+    /// Of the quadratic that touches the loss and, as far as the CDFs are linear in P, lies above it
+    /// (iteratively reweighted least squares) but where the CDFs differ by little: positive semidefinite.
+    /// gradient^T curvature^-1 gradient is about the loss, 0.03 to 1.2 of it over lobes of all widths.
     Eigen::Matrix<double, 9, 9> curvature;
   };
 
