@@ -53,7 +53,7 @@ std::vector<RefinementPoint> refinementPoints(const TableInfo& info, std::size_t
       const Axis& axis = info.axes[a];
       step /= g;
       double u = std::fmod(shift[a] + static_cast<double>(i + 1) * step, 1.0);
-      if (crowded && c.exponent > 0.0) {
+      if (crowded && c.exponent > 0.0 && axis.size() > 1) {
         const double v = c.high ? 1.0 - u : u;
         point.weight *= std::pow((1.0 + c.exponent) * std::pow(v, c.exponent), kWeightPower);
         u = std::pow(v, 1.0 + c.exponent);

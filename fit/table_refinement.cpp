@@ -1,12 +1,12 @@
 #include "fit/table_refinement.h"
 
 #include <ceres/ceres.h>
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -48,6 +48,7 @@ struct LookUp {
   std::vector<std::size_t> jobs;  // of its nodes, each once
   // at the last evaluation
   double value = 0.0;
+  bool isLtc = false;
   Matrix3d stored;   // interpolated
   Matrix9d factor;   // L^T of the curvature L L^T
   Vector9d reduced;  // L^-1 gradient
@@ -126,6 +127,7 @@ class Look final : public ceres::EvaluationCallback {
   void evaluate(LookUp& l, bool jacobians) {
     l.stored = storedAt(l.nodes);
     const Matrix3d m = matrixOf(l.stored, form_.stores);
+    l.isLtc = LookUpLoss::isLtc(m);
     if (!jacobians) {
       l.value = (*l.loss)(m, samples(), nullptr);
       return;
@@ -137,6 +139,13 @@ class Look final : public ceres::EvaluationCallback {
     const Eigen::LLT<Matrix9d> llt(d.curvature);
     l.factor = llt.matrixU();
     l.reduced = llt.matrixL().solve(d.gradient);
+    // a steeper quadratic, where half the squares would be more than the loss: else the solver would compare
+    // costs with and without derivatives that are not the same
+    const double excess = l.reduced.squaredNorm() / (2.0 * l.value);
+    if (excess > 1.0) {
+      l.factor *= std::sqrt(excess);
+      l.reduced /= std::sqrt(excess);
+    }
   }
 
   const TablePlan& plan_;
@@ -166,7 +175,8 @@ class LookUpCost final : public ceres::CostFunction {
     }
     Eigen::Map<Vector9d>(residuals, 9) = l_.reduced;
     residuals[kResiduals - 1] = std::sqrt(std::max(0.0, 2.0 * l_.value - l_.reduced.squaredNorm()));
-    const Matrix3d inverse = l_.stored.inverse();
+    // 0 for a look-up that is no LTC, whose inverse may not be finite
+    const Matrix3d inverse = l_.isLtc ? Matrix3d(l_.stored.inverse()) : Matrix3d(Matrix3d::Zero());
     for (std::size_t b = 0; b < l_.jobs.size(); ++b) {
       if (jacobians[b] == nullptr) continue;
       const RefinedEntry& entry = look_.entries()[l_.jobs[b]];
@@ -297,7 +307,8 @@ class Watch final : public ceres::IterationCallback {
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
     state_->iterations = first_ + s.iteration;
     state_->radius = s.trust_region_radius;
-    state_->cost = s.cost / lookUps_;
+    // after a step back the solver tells the cost that it was not taken for
+    if (s.iteration == 0 || s.step_is_successful) state_->cost = s.cost / lookUps_;
     state_->parameters = parametersOf(look_.entries());
     if (observer_ == nullptr) return ceres::SOLVER_CONTINUE;
     try {
@@ -319,12 +330,31 @@ class Watch final : public ceres::IterationCallback {
   RefinementObserver* observer_;
 };
 
+// Lobes there are, and room for what their symmetry leaves.
+void checkTable(const Table& table, const TablePlan& plan) {
+  const std::vector<std::string>& channels = table.info().channels;
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    const LobeParameters& p = plan.jobs[plan.nodes[n].job].parameters;
+    if (!(p.alphaY > 0.0 && p.alphaX > 0.0 && p.alphaX <= 1.0))
+      throw std::invalid_argument(fmt::format("node {} has alpha_x = {:g}, alpha_y = {:g}: no lobe of (0, 1]",
+                                              n, p.alphaX, p.alphaY));
+    const Matrix3d free = projectOnFamily(Matrix3d::Ones(), plan.nodes[n].family);
+    for (Eigen::Index k = 0; k < 9; ++k) {
+      const std::string name = fmt::format("m{}{}", k / 3, k % 3);
+      if (free(k / 3, k % 3) != 0.0 && std::find(channels.begin(), channels.end(), name) == channels.end())
+        throw std::invalid_argument(fmt::format("node {} needs {}, which is no channel", n, name));
+    }
+  }
+}
+
 Table tableOf(const Table& table, const Look& look) {
   std::vector<float> data = table.data();
   const std::vector<std::string>& channels = table.info().channels;
   for (std::size_t n = 0; n < table.nodeCount(); ++n) {
     const NodeSource& source = look.plan().nodes[n];
-    const Matrix3d m = turned(look.entries()[source.job].stored(), source.rotation);
+    // turning leaves rounding where the node's own symmetry has zeros
+    const Matrix3d m =
+        projectOnFamily(turned(look.entries()[source.job].stored(), source.rotation), source.family);
     for (std::size_t c = 0; c < channels.size(); ++c) {
       if (channels[c][0] == 'm')
         data[n * channels.size() + c] = static_cast<float>(m(channels[c][1] - '0', channels[c][2] - '0'));
@@ -340,21 +370,22 @@ bool RefinementOptions::isValid(std::string* error) const {
     if (!ok) *error = message;
     return ok;
   };
-  double sum = 0.0;
-  for (const double w :
-       {weights.sw, weights.swRel, weights.ratio, weights.form, weights.light, weights.lightRatio}) {
-    if (!check(w >= 0.0 && w <= 1e6, "weight " + std::to_string(w) + ", must be in 0..1e6")) return false;
-    sum += w;
-  }
-  return check(sum > 0.0, "all weights are 0") &&
+  const auto within = [&](const char* name, double value, double high) {
+    return check(value >= 0.0 && value <= high,
+                 fmt::format("{} {:g}, must be in 0..{:g}", name, value, high));
+  };
+  const RefinementWeights& w = weights;
+  return within("weight of sw", w.sw, 1e6) && within("weight of sw-rel", w.swRel, 1e6) &&
+         within("weight of ratio", w.ratio, 1e6) && within("weight of form", w.form, 1e6) &&
+         within("weight of light", w.light, 1e6) && within("weight of light-ratio", w.lightRatio, 1e6) &&
+         check(w.sw + w.swRel + w.ratio + w.form + w.light + w.lightRatio > 0.0, "all weights are 0") &&
          check(points >= 16 && points <= 1 << 22,
-               "points = " + std::to_string(points) + ", must be in 16..4194304") &&
+               fmt::format("points = {}, must be in 16..4194304", points)) &&
          check(iterations >= 1 && iterations <= 1000,
-               "iterations = " + std::to_string(iterations) + ", must be in 1..1000") &&
-         check(nodeWeight >= 0.0 && nodeWeight <= 1000.0 && smoothness >= 0.0 && smoothness <= 1000.0 &&
-                   prior >= 0.0 && prior <= 1000.0,
-               "node weight, smoothness and prior must be in 0..1000") &&
-         loss.isValid(error);
+               fmt::format("iterations = {}, must be in 1..1000", iterations)) &&
+         within("node weight", nodeWeight, 1000.0) && within("smoothness", smoothness, 1000.0) &&
+         within("prior", prior, 1000.0) &&
+         check(threads >= 0, fmt::format("threads = {}, must be 0 or more", threads)) && loss.isValid(error);
 }
 
 RefinementResult refineTable(const Table& table, const RefinementOptions& o, const RefinementState* resumed,
@@ -365,6 +396,7 @@ RefinementResult refineTable(const Table& table, const RefinementOptions& o, con
   const TablePlan plan = table.isIsotropic()
                              ? planIsotropicTable(info.axes, info.alphaFloor)
                              : planAnisotropicTable(info.axes, info.alphaFloor, SymmetryMode::kDuring);
+  checkTable(table, plan);
   Look look(table, plan, o);
   RefinementState state;
   if (resumed != nullptr) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,8 +49,8 @@ struct RefinementOptions {
 /// Where a refinement stands.
 struct RefinementState {
   int iterations = 0;
-  double radius = 0.0;             ///< of the trust region; 0: as at the start
-  double cost = 0.0;               ///< mean over the look-ups
+  double radius = 0.0;               ///< of the trust region; 0: as at the start
+  double cost = 0.0;                 ///< of the parameters: mean over the look-ups, with prior and smoothness
   std::vector<double> parameters{};  ///< of all entries, in order; empty: as at the start
 };
 
@@ -66,9 +65,9 @@ struct RefinementResult {
 class RefinementObserver {
  public:
   virtual ~RefinementObserver() = default;
-  /// While look-ups are prepared.
+  /// While look-ups are prepared: from any thread, but never from two at once. May throw, too.
   virtual void prepared(std::size_t done, std::size_t total) = 0;
-  /// After each iteration, from the calling thread. May throw: that ends the refinement.
+  /// At the start and after each iteration, from the calling thread. May throw: that ends the refinement.
   virtual void iterated(const RefinementState& state) = 0;
 };
 
@@ -80,8 +79,9 @@ class RefinementObserver {
 /// Look-ups are drawn evenly over the axes: uniformly in alpha, lambda, theta and phi, in sqrt(alpha) and
 /// sqrt(1 - cos theta) for isotropic tables, more of less weight where lobes change fast. `resumed`, or null:
 /// where an earlier call of the same arguments stood. `options` valid. Throws std::invalid_argument for an
-/// unknown brdf, an anisotropic table that does not store M, one whose nodes are no LTCs, and a `resumed` of
-/// another table.
+/// unknown brdf, an anisotropic table that does not store M, one whose nodes are no LTCs with det > 0, or no
+/// lobes (alpha 0), or whose channels leave out what refinement would change, and a `resumed` of another
+/// table.
 RefinementResult refineTable(const Table& table, const RefinementOptions& options,
                              const RefinementState* resumed = nullptr,
                              RefinementObserver* observer = nullptr);
