@@ -4,19 +4,17 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
-#include <memory>
 #include <stdexcept>
 
 #include "fit/ceres_termination.h"
 #include "fit/parallel_for.h"
 #include "fit/refined_entry.h"
 #include "fit/refinement_points.h"
+#include "fit/refinement_problem.h"
 #include "fit/table_plan.h"
 #include "ggx/random.h"
 #include "ltc/ltc.h"
@@ -24,8 +22,8 @@
 namespace ltcfit {
 
 using Eigen::Matrix3d;
-using Vector9d = Eigen::Matrix<double, 9, 1>;
-using Matrix9d = Eigen::Matrix<double, 9, 9>;
+using internal::RefinedLookUp;
+using internal::RefinedLookUps;
 
 namespace {
 
@@ -34,229 +32,12 @@ constexpr double kCostTolerance = 1e-5;
 // Of the linear solver: conjugate gradients stop at this part of the gradient, or after so many steps.
 constexpr double kForcing = 0.1;
 constexpr int kLinearIterations = 100;
-// Added to the curvature's diagonal, as a part of its trace: the scale of M and its rotation about z have
-// none.
-constexpr double kLeastCurvature = 1e-9;
-constexpr int kResiduals = 10;
 // What relative errors count at nodes, whose needles (alpha at the floor) are all but never read.
 constexpr double kRelativeAtNodes = 0.2;
 
-// A look-up as the solver sees it.
-struct LookUp {
-  std::unique_ptr<LookUpLoss> loss;
-  LookUpNodes nodes;
-  std::vector<std::size_t> jobs;  // of its nodes, each once
-  // at the last evaluation
-  double value = 0.0;
-  bool isLtc = false;
-  Matrix3d stored;   // interpolated
-  Matrix9d factor;   // L^T of the curvature L L^T
-  Vector9d reduced;  // L^-1 gradient
-};
-
-Matrix3d matrixOf(const Matrix3d& stored, MatrixStorage stores) {
-  return stores == MatrixStorage::kM ? stored : Matrix3d(stored.inverse());
-}
-
-// The entries and their look-ups. All look-ups are evaluated here, on all threads, before the solver asks for
-// their residuals one by one: its own threads would add them up in any order.
-class Look final : public ceres::EvaluationCallback {
- public:
-  Look(const Table& table, const TablePlan& plan, const RefinementOptions& options)
-      : plan_(plan), form_{table.info().stores, table.info().normalization} {
-    threads_ = options.threads > 0 ? options.threads : omp_get_max_threads();
-    for (int t = 0; t < threads_; ++t) samples_.emplace_back(options.loss);
-    entries_.reserve(plan.jobs.size());
-    for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
-      // nodes of one lobe: the first has it unturned
-      if (plan.nodes[n].job != entries_.size()) continue;
-      const NodeSource& node = plan.nodes[n];
-      const Matrix3d m =
-          projectOnFamily(turned(table.entry(table.node(n)).m, -node.rotation), node.jobFamily);
-      if (!m.allFinite() || !(m.determinant() > 0.0))
-        throw std::invalid_argument("node " + std::to_string(n) + " has no matrix with det > 0");
-      entries_.emplace_back(m, node.jobFamily, form_);
-    }
-  }
-
-  std::vector<RefinedEntry>& entries() { return entries_; }
-  const std::vector<RefinedEntry>& entries() const { return entries_; }
-  std::vector<LookUp>& lookUps() { return lookUps_; }
-  const TablePlan& plan() const { return plan_; }
-  MatrixStorage stores() const { return form_.stores; }
-
-  Matrix3d storedAt(const LookUpNodes& nodes) const {
-    Matrix3d sum = Matrix3d::Zero();
-    for (std::size_t k = 0; k < nodes.count; ++k) {
-      const NodeSource& source = plan_.nodes[nodes.node[k]];
-      sum += nodes.weight[k] * turned(entries_[source.job].stored(), source.rotation);
-    }
-    return sum;
-  }
-
-  void prepare(const std::vector<RefinementPoint>& points, const std::string& brdf,
-               const LookUpLossOptions& options, std::uint64_t seed, RefinementObserver* observer) {
-    lookUps_.resize(points.size());
-    std::size_t done = 0;
-    parallelFor(points.size(), threads_, [&](std::size_t i) {
-      LookUp& l = lookUps_[i];
-      l.nodes = lookUpNodes(plan_.info.axes, points[i].parameters);
-      for (std::size_t k = 0; k < l.nodes.count; ++k) {
-        const std::size_t job = plan_.nodes[l.nodes.node[k]].job;
-        if (std::find(l.jobs.begin(), l.jobs.end(), job) == l.jobs.end()) l.jobs.push_back(job);
-      }
-      l.loss = std::make_unique<LookUpLoss>(points[i].parameters, brdf, options, mixSeed(seed, i), samples());
-      return [&] {
-        if (observer != nullptr) observer->prepared(++done, points.size());
-      };
-    });
-  }
-
-  void PrepareForEvaluation(bool jacobians, bool isNew) override {
-    if (isNew)
-      for (RefinedEntry& e : entries_) e.update();
-#pragma omp parallel for schedule(dynamic, 16) num_threads(threads_)
-    for (std::size_t i = 0; i < lookUps_.size(); ++i) evaluate(lookUps_[i], jacobians);
-  }
-
- private:
-  LookUpSamples& samples() {
-    return samples_[static_cast<std::size_t>(omp_get_thread_num())];
-  }
-
-  void evaluate(LookUp& l, bool jacobians) {
-    l.stored = storedAt(l.nodes);
-    const Matrix3d m = matrixOf(l.stored, form_.stores);
-    l.isLtc = LookUpLoss::isLtc(m);
-    if (!jacobians) {
-      l.value = (*l.loss)(m, samples(), nullptr);
-      return;
-    }
-    LossDerivatives d;
-    l.value = (*l.loss)(m, samples(), &d);
-    const double least = kLeastCurvature * d.curvature.trace() + std::numeric_limits<double>::min();
-    d.curvature.diagonal().array() += least;
-    const Eigen::LLT<Matrix9d> llt(d.curvature);
-    l.factor = llt.matrixU();
-    l.reduced = llt.matrixL().solve(d.gradient);
-    // a steeper quadratic, where half the squares would be more than the loss: else the solver would compare
-    // costs with and without derivatives that are not the same
-    const double excess = l.reduced.squaredNorm() / (2.0 * l.value);
-    if (excess > 1.0) {
-      l.factor *= std::sqrt(excess);
-      l.reduced /= std::sqrt(excess);
-    }
-  }
-
-  const TablePlan& plan_;
-  StoredForm form_;
-  int threads_;
-  std::vector<LookUpSamples> samples_;  // one for each thread
-  std::vector<RefinedEntry> entries_;
-  std::vector<LookUp> lookUps_;
-};
-
-// A loss with gradient g and curvature H = L L^T as least squares: residuals L^-1 g, and one more that makes
-// half their squares the loss, with derivatives L^T and 0. Gradient and Gauss-Newton matrix are then g and H.
-class LookUpCost final : public ceres::CostFunction {
- public:
-  LookUpCost(const Look& look, const LookUp& l) : look_(look), l_(l) {
-    set_num_residuals(kResiduals);
-    for (const std::size_t job : l.jobs)
-      mutable_parameter_block_sizes()->push_back(static_cast<int>(look.entries()[job].size()));
-  }
-
-  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    if (!std::isfinite(l_.value)) return false;
-    std::fill(residuals, residuals + kResiduals, 0.0);
-    if (jacobians == nullptr) {
-      residuals[kResiduals - 1] = std::sqrt(2.0 * l_.value);
-      return true;
-    }
-    Eigen::Map<Vector9d>(residuals, 9) = l_.reduced;
-    residuals[kResiduals - 1] = std::sqrt(std::max(0.0, 2.0 * l_.value - l_.reduced.squaredNorm()));
-    // 0 for a look-up that is no LTC, whose inverse may not be finite
-    const Matrix3d inverse = l_.isLtc ? Matrix3d(l_.stored.inverse()) : Matrix3d(Matrix3d::Zero());
-    for (std::size_t b = 0; b < l_.jobs.size(); ++b) {
-      if (jacobians[b] == nullptr) continue;
-      const RefinedEntry& entry = look_.entries()[l_.jobs[b]];
-      const auto n = static_cast<Eigen::Index>(entry.size());
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(jacobians[b],
-                                                                                           kResiduals, n);
-      j.setZero();
-      for (Eigen::Index k = 0; k < n; ++k) {
-        Matrix3d d = Matrix3d::Zero();
-        for (std::size_t c = 0; c < l_.nodes.count; ++c) {
-          const NodeSource& source = look_.plan().nodes[l_.nodes.node[c]];
-          if (source.job != l_.jobs[b]) continue;
-          d += l_.nodes.weight[c] * turned(entry.derivative(static_cast<std::size_t>(k)), source.rotation);
-        }
-        // P of M (I + P): M^-1 dM, and for N = M^-1 with dM = -M dN M
-        const Matrix3d p =
-            look_.stores() == MatrixStorage::kM ? Matrix3d(inverse * d) : Matrix3d(-d * inverse);
-        Vector9d v;
-        for (Eigen::Index i = 0; i < 9; ++i) v[i] = p(i / 3, i % 3);
-        j.col(k).head<9>() = l_.factor * v;
-      }
-    }
-    return true;
-  }
-
- private:
-  const Look& look_;
-  const LookUp& l_;
-};
-
-// weight p, and weight (p - q): changes, and differences between neighbours'.
-class ChangeCost final : public ceres::CostFunction {
- public:
-  ChangeCost(std::size_t size, std::size_t blocks, double weight) : weight_(weight) {
-    set_num_residuals(static_cast<int>(size));
-    mutable_parameter_block_sizes()->assign(blocks, static_cast<int>(size));
-  }
-
-  bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
-    const std::size_t n = static_cast<std::size_t>(num_residuals());
-    const std::size_t blocks = parameter_block_sizes().size();
-    for (std::size_t k = 0; k < n; ++k) residuals[k] = weight_ * (p[0][k] - (blocks == 2 ? p[1][k] : 0.0));
-    for (std::size_t b = 0; jacobians != nullptr && b < blocks; ++b) {
-      if (jacobians[b] == nullptr) continue;
-      std::fill(jacobians[b], jacobians[b] + n * n, 0.0);
-      for (std::size_t k = 0; k < n; ++k) jacobians[b][k * (n + 1)] = b == 0 ? weight_ : -weight_;
-    }
-    return true;
-  }
-
- private:
-  double weight_;
-};
-
-void addChangeCosts(const Table& table, const RefinementOptions& options, Look& look,
-                    ceres::Problem* problem) {
-  std::vector<RefinedEntry>& entries = look.entries();
-  if (options.prior > 0.0) {
-    for (RefinedEntry& e : entries)
-      problem->AddResidualBlock(new ChangeCost(e.size(), 1, options.prior), nullptr, e.parameters().data());
-  }
-  if (!(options.smoothness > 0.0)) return;
-  for (std::size_t n = 0; n < table.nodeCount(); ++n) {
-    const std::vector<std::size_t> node = table.node(n);
-    for (std::size_t a = 0; a < node.size(); ++a) {
-      if (node[a] + 1 >= table.info().axes[a].size()) continue;
-      std::vector<std::size_t> next = node;
-      ++next[a];
-      const std::size_t i = look.plan().nodes[n].job;
-      const std::size_t j = look.plan().nodes[table.index(next) / table.channelCount()].job;
-      if (i == j || entries[i].family() != entries[j].family()) continue;
-      problem->AddResidualBlock(new ChangeCost(entries[i].size(), 2, options.smoothness), nullptr,
-                                entries[i].parameters().data(), entries[j].parameters().data());
-    }
-  }
-}
-
 // Each part over its mean among the direct fits of the points that are not nodes.
 void setWeights(const std::vector<RefinementPoint>& points, const RefinementWeights& w,
-                std::vector<LookUp>* lookUps) {
+                std::vector<RefinedLookUp>* lookUps) {
   LookUpErrors mean;
   double swRel = 0.0;
   double total = 0.0;
@@ -301,7 +82,7 @@ void setParameters(const std::vector<double>& values, std::vector<RefinedEntry>*
 
 class Watch final : public ceres::IterationCallback {
  public:
-  Watch(const Look& look, double lookUps, RefinementState* state, RefinementObserver* observer)
+  Watch(const RefinedLookUps& look, double lookUps, RefinementState* state, RefinementObserver* observer)
       : look_(look), lookUps_(lookUps), first_(state->iterations), state_(state), observer_(observer) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
@@ -323,7 +104,7 @@ class Watch final : public ceres::IterationCallback {
   std::exception_ptr failure;
 
  private:
-  const Look& look_;
+  const RefinedLookUps& look_;
   double lookUps_;
   int first_;
   RefinementState* state_;
@@ -347,7 +128,7 @@ void checkTable(const Table& table, const TablePlan& plan) {
   }
 }
 
-Table tableOf(const Table& table, const Look& look) {
+Table tableOf(const Table& table, const RefinedLookUps& look) {
   std::vector<float> data = table.data();
   const std::vector<std::string>& channels = table.info().channels;
   for (std::size_t n = 0; n < table.nodeCount(); ++n) {
@@ -397,7 +178,7 @@ RefinementResult refineTable(const Table& table, const RefinementOptions& o, con
                              ? planIsotropicTable(info.axes, info.alphaFloor)
                              : planAnisotropicTable(info.axes, info.alphaFloor, SymmetryMode::kDuring);
   checkTable(table, plan);
-  Look look(table, plan, o);
+  RefinedLookUps look(table, plan, o);
   RefinementState state;
   if (resumed != nullptr) {
     state = *resumed;
@@ -415,12 +196,8 @@ RefinementResult refineTable(const Table& table, const RefinementOptions& o, con
   ceres::Problem::Options problemOptions;
   problemOptions.evaluation_callback = &look;
   ceres::Problem problem(problemOptions);
-  for (const LookUp& l : look.lookUps()) {
-    std::vector<double*> blocks;
-    for (const std::size_t job : l.jobs) blocks.push_back(look.entries()[job].parameters().data());
-    problem.AddResidualBlock(new LookUpCost(look, l), nullptr, blocks);
-  }
-  addChangeCosts(table, o, look, &problem);
+  internal::addLookUpCosts(look, &problem);
+  internal::addChangeCosts(table, o, look, &problem);
 
   ceres::Solver::Options so;
   so.linear_solver_type = ceres::CGNR;
