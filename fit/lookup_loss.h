@@ -72,10 +72,10 @@ class LookUpLoss {
   void setWeights(const LookUpErrors& weights) { weights_ = weights; }
 
   /// sw + form + (light + n_D leakWeight / 2 mass below the horizon), each times its weight. Where `m` is no
-  /// LTC's (det <= 0, not finite, the whole lobe below the horizon) as for errors of 1, derivatives 0.
+  /// LTC's (det 0, not finite, the whole lobe below the horizon) as for errors of 1, derivatives 0.
   double operator()(const Eigen::Matrix3d& m, LookUpSamples& samples, LossDerivatives* derivatives) const;
 
-  /// Whether there is an LTC of the matrix whose lobe is not all below the horizon: finite, det > 0.
+  /// Whether there is an LTC of the matrix whose lobe is not all below the horizon: finite, det != 0.
   static bool isLtc(const Eigen::Matrix3d& m);
 
   /// Of an LTC's matrix (isLtc).

@@ -50,6 +50,12 @@ struct CellRange {
   std::int32_t first, last;
 };
 
+// Cells of a slice have the size 2^octave times the smallest.
+int octaveOf(const ProjectedSlice& s, std::int32_t cell) {
+  const std::int32_t half = s.octaves << kCellBits;
+  return (cell < half ? half - 1 - cell : cell - half) >> kCellBits;
+}
+
 // The cell of each point on a slice, and the part of the cell that lies above it: 2^kShift times the mean
 // over the cell of the step that the point adds to the CDF.
 LTCFIT_VECTOR_CLONES void binSlice(const ProjectedSlice& s, std::size_t n, const float* px, const float* py,
@@ -210,7 +216,6 @@ void ProjectedCosine::addToHistogram(std::size_t n) {
 double ProjectedCosine::areaBetweenCdfs(const ProjectedLobe& lobe, const ProjectedSlice& s,
                                         std::int32_t first, std::int32_t last) {
   const std::int64_t* const target = lobe.cdf.data() + s.at;
-  const std::int32_t half = s.octaves << kCellBits;
   std::uint64_t before = 0;
   double area = 0.0;
   for (std::int32_t block = first / kOctave * kOctave; block <= last; block += kOctave) {
@@ -226,8 +231,7 @@ double ProjectedCosine::areaBetweenCdfs(const ProjectedLobe& lobe, const Project
       sum += std::abs(difference);
       sign_[at] = static_cast<float>((difference < 0) - (difference > 0));
     }
-    const std::int32_t octave = block < half ? (half - 1 - block) >> kCellBits : (block - half) >> kCellBits;
-    area += std::ldexp(static_cast<double>(sum), octave);
+    area += std::ldexp(static_cast<double>(sum), octaveOf(s, block));
   }
   return area / kAllParts * static_cast<double>(s.scale) / kOctave;
 }
@@ -235,16 +239,13 @@ double ProjectedCosine::areaBetweenCdfs(const ProjectedLobe& lobe, const Project
 // To each cell's mean of F, P adds motion / width of the cell; the loss is the sum of width |F - G|, of which
 // width (F - G)^2 / |F - G| is the majorant.
 void ProjectedCosine::addCurvature(const ProjectedSlice& s, std::int32_t first, std::int32_t last,
-                                   const Matrix3d& m, Eigen::Matrix<double, 9, 9>* curvature) {
+                                   Eigen::Matrix<double, 9, 9>* curvature) {
   const auto from = static_cast<std::size_t>(first);
   const auto to = static_cast<std::size_t>(last);
   std::fill(motion_.begin() + first, motion_.begin() + last + 1, std::array<double, 9>{});
   const Vector3d w(static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z));
   for (std::size_t i = 0; i < cosX_.size(); ++i) {
-    const Vector3d y = reference_ + Vector3d(static_cast<double>(x_[i]), static_cast<double>(y_[i]),
-                                             static_cast<double>(z_[i]));
-    const Vector3d v = static_cast<double>(weight_[i]) * invLength_[i] * (w - y.dot(w) * y);
-    const Vector3d u = m.transpose() * v;
+    const Vector3d u = pull_[i] * w;
     std::array<double, 9>& a = motion_[static_cast<std::size_t>(cell_[i])];
     const std::array<double, 3> x{cosX_[i], cosY_[i], cosZ_[i]};
     for (std::size_t r = 0; r < 3; ++r)
@@ -252,22 +253,24 @@ void ProjectedCosine::addCurvature(const ProjectedSlice& s, std::int32_t first, 
   }
   double sum = 0.0;
   double squares = 0.0;
-  const std::size_t half = static_cast<std::size_t>(s.octaves) << kCellBits;
-  const auto widthOf = [&](std::size_t c) {
-    return std::ldexp(static_cast<double>(s.scale) / kOctave,
-                      static_cast<int>((c < half ? half - 1 - c : c - half) >> kCellBits));
-  };
   for (std::size_t c = from; c <= to; ++c) {
-    const double d = std::abs(static_cast<double>(difference_[c])) / kAllParts;
-    sum += widthOf(c) * d;
-    squares += widthOf(c) * d * d;
+    const double d = std::abs(static_cast<double>(difference_[c]));
+    const double area = std::ldexp(d, octaveOf(s, static_cast<std::int32_t>(c)));
+    sum += area;
+    squares += area * d;
   }
-  const double floor = sum > 0.0 ? kCurvatureFloor * squares / sum : 1.0 / kAllWeight;
+  const double floor = sum > 0.0 ? kCurvatureFloor * squares / sum : kAllParts / kAllWeight;
+  const double unit = kAllParts / (kAllWeight * kAllWeight * static_cast<double>(s.scale) / kOctave);
+  double* const h = curvature->data();
   for (std::size_t c = from; c <= to; ++c) {
-    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> a(motion_[c].data());
-    const double d = std::abs(static_cast<double>(difference_[c])) / kAllParts;
-    curvature->selfadjointView<Eigen::Lower>().rankUpdate(
-        a, 1.0 / (kAllWeight * kAllWeight * widthOf(c) * (d + floor)));
+    const std::array<double, 9>& a = motion_[c];
+    if (a[8] == 0.0 && a[0] == 0.0) continue;  // no sample: x.z > 0, so that u = 0 or all are
+    const double d = std::abs(static_cast<double>(difference_[c]));
+    const double weight = std::ldexp(unit / (d + floor), -octaveOf(s, static_cast<std::int32_t>(c)));
+    for (std::size_t i = 0; i < 9; ++i) {
+      const double wa = weight * a[i];
+      for (std::size_t j = 0; j < 9; ++j) h[9 * i + j] += wa * a[j];
+    }
   }
 }
 
@@ -326,6 +329,13 @@ double ProjectedCosine::loss(const ProjectedLobe& lobe, const Matrix3d& m, Deriv
   const std::size_t n = cosX_.size();
   project(lobe, m);
   derivatives->curvature.setZero();
+  pull_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3d y = reference_ + Vector3d(static_cast<double>(x_[i]), static_cast<double>(y_[i]),
+                                             static_cast<double>(z_[i]));
+    const Vector3d my = m.transpose() * y;
+    pull_[i] = static_cast<double>(weight_[i]) * invLength_[i] * (m.transpose() - my * y.transpose());
+  }
   double sum = 0.0;
   for (const ProjectedSlice& s : lobe.slices) {
     CellRange range{};
@@ -335,13 +345,12 @@ double ProjectedCosine::loss(const ProjectedLobe& lobe, const Matrix3d& m, Deriv
     const std::int32_t last = std::max(s.last, range.last);
     sum += areaBetweenCdfs(lobe, s, first, last);
     pullSamples(s, n, sign_.data(), cell_.data(), gx_.data(), gy_.data(), gz_.data());
-    addCurvature(s, first, last, m, &derivatives->curvature);
+    addCurvature(s, first, last, &derivatives->curvature);
   }
   const double perSlice = 1.0 / static_cast<double>(lobe.slices.size());
   const Matrix3d gradient = perSlice * m.transpose() * gradientOfPulls();
   for (Eigen::Index k = 0; k < 9; ++k) derivatives->gradient[k] = gradient(k / 3, k % 3);
   derivatives->curvature *= perSlice;
-  derivatives->curvature.triangularView<Eigen::StrictlyUpper>() = derivatives->curvature.transpose().eval();
   return sum * perSlice;
 }
 

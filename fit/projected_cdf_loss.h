@@ -74,7 +74,7 @@ class ProjectedCosine {
   void addToHistogram(std::size_t n);
   double areaBetweenCdfs(const ProjectedLobe& lobe, const ProjectedSlice& s, std::int32_t first,
                          std::int32_t last);
-  void addCurvature(const ProjectedSlice& s, std::int32_t first, std::int32_t last, const Eigen::Matrix3d& m,
+  void addCurvature(const ProjectedSlice& s, std::int32_t first, std::int32_t last,
                     Eigen::Matrix<double, 9, 9>* curvature);
   Eigen::Matrix3d gradientOfPulls() const;
 
@@ -90,6 +90,7 @@ class ProjectedCosine {
   std::vector<std::uint64_t> histogram_;
   std::vector<float> sign_;
   std::vector<std::int64_t> difference_;
+  std::vector<Eigen::Matrix3d> pull_;          // M^T d y / d (M x) of each sample, times its weight
   std::vector<std::array<double, 9>> motion_;  // of each cell's mass by P
 };
 

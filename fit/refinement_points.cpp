@@ -21,8 +21,6 @@ constexpr std::array<Crowding, 4> kAnisotropic{{{AxisMap::kLinear, 0.8, false},
                                                 {AxisMap::kLinear, 0.6, false},
                                                 {AxisMap::kLinear, 0.8, true},
                                                 {AxisMap::kLinear, 0.0, false}}};
-// The weight of a point is its share of the domain to this power: at 1 crowding only lowers the noise.
-constexpr double kWeightPower = 0.7;
 
 // The root of x^(d + 1) = x + 1: golden ratio, plastic number, and so on.
 double harmoniousNumber(std::size_t dimensions) {
@@ -55,7 +53,7 @@ std::vector<RefinementPoint> refinementPoints(const TableInfo& info, std::size_t
       double u = std::fmod(shift[a] + static_cast<double>(i + 1) * step, 1.0);
       if (crowded && c.exponent > 0.0 && axis.size() > 1) {
         const double v = c.high ? 1.0 - u : u;
-        point.weight *= std::pow((1.0 + c.exponent) * std::pow(v, c.exponent), kWeightPower);
+        point.weight *= (1.0 + c.exponent) * std::pow(v, c.exponent);
         u = std::pow(v, 1.0 + c.exponent);
         if (c.high) u = 1.0 - u;
       }

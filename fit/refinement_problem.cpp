@@ -139,7 +139,8 @@ void RefinedLookUps::prepare(const std::vector<RefinementPoint>& points, const s
   std::size_t done = 0;
   parallelFor(points.size(), threads_, [&](std::size_t i) {
     RefinedLookUp& l = lookUps_[i];
-    l.nodes = lookUpNodes(plan_.info.axes, points[i].parameters);
+    l.nodes = points[i].isNode ? LookUpNodes{.node = {points[i].node}, .weight = {1.0}, .count = 1}
+                               : lookUpNodes(plan_.info.axes, points[i].parameters);
     for (std::size_t k = 0; k < l.nodes.count; ++k) {
       const std::size_t job = plan_.nodes[l.nodes.node[k]].job;
       if (std::find(l.jobs.begin(), l.jobs.end(), job) == l.jobs.end()) l.jobs.push_back(job);

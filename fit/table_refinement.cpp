@@ -28,12 +28,10 @@ using internal::RefinedLookUps;
 namespace {
 
 constexpr double kRadius = 10.0;  // of the first trust region; a larger one takes failed steps first
-constexpr double kCostTolerance = 1e-5;
+constexpr double kCostTolerance = 1e-6;
 // Of the linear solver: conjugate gradients stop at this part of the gradient, or after so many steps.
 constexpr double kForcing = 0.1;
 constexpr int kLinearIterations = 100;
-// What relative errors count at nodes, whose needles (alpha at the floor) are all but never read.
-constexpr double kRelativeAtNodes = 0.2;
 
 // Each part over its mean among the direct fits of the points that are not nodes.
 void setWeights(const std::vector<RefinementPoint>& points, const RefinementWeights& w,
@@ -52,10 +50,9 @@ void setWeights(const std::vector<RefinementPoint>& points, const RefinementWeig
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     LookUpLoss& loss = *(*lookUps)[i].loss;
-    const double relative = points[i].isNode ? kRelativeAtNodes : 1.0;
-    const double sw = w.sw * total / mean.sw +
-                      relative * (w.swRel * total / (swRel * loss.spread()) + w.ratio / loss.direct().sw);
-    const double light = w.light * total / mean.light + relative * w.lightRatio / loss.direct().light;
+    const double sw =
+        w.sw * total / mean.sw + w.swRel * total / (swRel * loss.spread()) + w.ratio / loss.direct().sw;
+    const double light = w.light * total / mean.light + w.lightRatio / loss.direct().light;
     loss.setWeights(
         {points[i].weight * sw, points[i].weight * w.form * total / mean.form, points[i].weight * light});
   }
@@ -188,7 +185,15 @@ RefinementResult refineTable(const Table& table, const RefinementOptions& o, con
   std::vector<RefinementPoint> points =
       refinementPoints(info, static_cast<std::size_t>(o.points), mixSeed(o.seed, 60), true);
   if (o.nodeWeight > 0.0) {
-    for (const LobeJob& job : plan.jobs) points.push_back({job.parameters, o.nodeWeight, true});
+    // the first node of each lobe stands for all that have it
+    std::vector<double> nodesOf(plan.jobs.size(), 0.0);
+    for (const NodeSource& node : plan.nodes) nodesOf[node.job] += 1.0;
+    std::size_t job = 0;
+    for (std::size_t i = 0; i < plan.nodes.size(); ++i) {
+      if (plan.nodes[i].job != job) continue;
+      points.push_back({plan.jobs[job].parameters, o.nodeWeight * nodesOf[job], true, i});
+      ++job;
+    }
   }
   look.prepare(points, info.brdf, o.loss, mixSeed(o.seed, 61), observer);
   setWeights(points, o.weights, &look.lookUps());
@@ -250,7 +255,7 @@ std::vector<FreshErrors> errorsAtFreshPoints(const std::vector<const Table*>& ta
         const bool usable = LookUpLoss::isLtc(m);
         e.mean = usable ? loss.errors(m, own) : LookUpErrors{1.0, 1.0, 1.0};
         e.below = usable ? Ltc(m).massBelowHorizon() : 0.0;
-        e.unusable = usable ? 0 : 1;
+        e.unusable = usable && m.determinant() > 0.0 ? 0 : 1;
       }
       e.swRel = e.mean.sw / loss.spread();
     }

@@ -91,7 +91,7 @@ struct FreshErrors {
   LookUpErrors mean;         ///< errors of 1 where a look-up yields no LTC
   double swRel = 0.0;        ///< of mean.sw over the lobe's spread
   double below = 0.0;        ///< mass below the horizon
-  std::size_t unusable = 0;  ///< look-ups that yield no LTC (det <= 0)
+  std::size_t unusable = 0;  ///< look-ups with det M <= 0: a shader must turn the winding there
 };
 
 /// Of direct fits of `count` look-ups that no refinement with this seed has seen, drawn evenly over the axes
