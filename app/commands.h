@@ -28,6 +28,7 @@ void addCompareCommand(CLI::App& app, CommandStatus& status);
 void addExportCommand(CLI::App& app, CommandStatus& status);
 void addParetoCommand(CLI::App& app, CommandStatus& status);
 void addPrefilterCommand(CLI::App& app, CommandStatus& status);
+void addRefineCommand(CLI::App& app, CommandStatus& status);
 void addReportCommand(CLI::App& app, CommandStatus& status);
 void addSceneCommand(CLI::App& app, CommandStatus& status);
 void addScoreCommand(CLI::App& app, CommandStatus& status);

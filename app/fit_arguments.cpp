@@ -9,6 +9,7 @@
 
 #include "app/axes_argument.h"
 #include "app/commands.h"
+#include "app/refinement_run.h"
 
 namespace ltcfit::app {
 namespace {
@@ -115,11 +116,22 @@ void addTableOptions(CLI::App& command, FitArguments& a) {
   command.add_option("--threads", a.threads, "Threads; 0 = all cores. Does not change the result")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command.add_flag("--resume", a.resume,
-                   "Go on from FILE.json.part, which an interrupted run left; the result is the same");
+  command.add_flag(
+      "--resume", a.resume,
+      "Go on from FILE.json.part, which an interrupted run left; the result is the same. With --refine\n"
+      "also from FILE.json.refine.part: then as good, but not the same bytes");
   command
       .add_option("--report", a.reportPath, "Also write a CSV with one line for each entry: how its fit went")
       ->type_name("FILE.csv");
+  command.add_flag("--refine", a.refine,
+                   "Then move all entries together, so that what is read between nodes is best: the same as\n"
+                   "ltcfit refine on the fitted table, which is not written itself");
+  command
+      .add_option("--refine-points", a.refinePoints,
+                  "refine: look-ups that the table is fitted for, 16..4194304")
+      ->capture_default_str();
+  command.add_option("--refine-iterations", a.refineIterations, "refine: at most so many steps, 1..1000")
+      ->capture_default_str();
   command.add_option("--score-points", a.scorePoints, "Points of the error figures in the summary; 0 = none")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
@@ -155,7 +167,10 @@ void checkFitArguments(const CLI::App& command, const FitArguments& a) {
   if (!l3 && given("--max-evaluations")) refuse("--max-evaluations needs --fitter l3");
   if (!l3 && a.family != "4")
     refuse("--family " + a.family + " needs --fitter l3: the others fit all 4 parameters");
-  if (isWarmStartedL3(a) && a.resume)
+  for (const char* const option : {"--refine-points", "--refine-iterations"})
+    if (!a.refine && given(option)) refuse(std::string(option) + " needs --refine");
+  if (a.refine) refinementOptions(a.refinePoints, a.refineIterations, a.seed, a.threads, "refine-");
+  if (isWarmStartedL3(a) && a.resume && !a.refine)
     refuse("--resume needs --fitter light, sw or sw-sgd: the l3 fit of an isotropic table takes seconds");
 }
 

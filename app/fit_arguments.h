@@ -9,6 +9,7 @@
 
 #include "fit/isotropic_table_fit.h"
 #include "fit/table_fit.h"
+#include "fit/table_refinement.h"
 
 namespace ltcfit::app {
 
@@ -36,6 +37,9 @@ struct FitArguments {
   int threads = 0;
   std::int64_t seed = 1;
   int scorePoints = 0;
+  bool refine = false;
+  int refinePoints = RefinementOptions{}.points;
+  int refineIterations = RefinementOptions{}.iterations;
   bool resume = false;
   bool quiet = false;
   bool json = false;
@@ -60,7 +64,8 @@ TableFitOptions toFitOptions(const FitArguments& a);
 /// Whether fitIsotropicTable does it (warm starts along the table), not fitTable.
 bool isWarmStartedL3(const FitArguments& a);
 
-/// The command that gives the same bytes: every option that matters, none that does not (threads, paths).
+/// The command that gives the same bytes: every option that matters, none that does not (threads, paths), and
+/// none of --refine: the fit is the same.
 Provenance makeProvenance(const FitArguments& a);
 
 }  // namespace ltcfit::app

@@ -19,7 +19,8 @@ void checkOutputs(const FitArguments& a) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
   };
   if (!a.reportPath.empty() &&
-      (file(a.reportPath) == file(a.output) || file(a.reportPath) == file(a.output + ".part"))) {
+      (file(a.reportPath) == file(a.output) || file(a.reportPath) == file(a.output + ".part") ||
+       file(a.reportPath) == file(a.output + ".refine.part"))) {
     throw InputError(a.reportPath + ": --output (or its .part) and --report name the same file");
   }
   if (!a.reportPath.empty()) checkWritable(a.reportPath);

@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/commands.h"
+#include "app/fit_output.h"
 #include "app/fit_runs.h"
 #include "app/fit_summary.h"
 #include "app/progress.h"
 #include "export/atomic_file.h"
-#include "export/json_table.h"
 
 namespace ltcfit::app {
 namespace {
@@ -35,7 +36,7 @@ Summary relativeErrors(const IsotropicFitResult& result) {
   return summarize(std::move(errors));
 }
 
-void printText(const FitArguments& a, const IsotropicFitResult& result, const Times& times) {
+void printText(const IsotropicFitResult& result, const Times& times) {
   const Summary relative = relativeErrors(result);
   fmt::print("{} entries, {} evaluations: {:.1f} CPU s, {:.1f} s wall\n", result.reports.size(),
              result.evaluations, times.cpu, times.wall);
@@ -44,7 +45,6 @@ void printText(const FitArguments& a, const IsotropicFitResult& result, const Ti
   fmt::print(
       "relative L3 error of the fit: mean {:.4f}, p99 {:.4f}, max {:.4f}; norm and Fresnel within {:.0e}\n",
       relative.mean, relative.p99, relative.max, result.largestMomentError);
-  if (result.unusable == 0) fmt::print("wrote {}\n", a.output);
 }
 
 nlohmann::ordered_json toJson(const FitArguments& a, const IsotropicFitResult& result, const Times& times) {
@@ -72,6 +72,7 @@ int fitIsotropicL3(const FitArguments& a, const IsotropicTableOptions& tableOpti
   std::string error;
   if (!options.isValid(&error)) throw std::invalid_argument(error);
 
+  checkRefinement(a);
   const Stopwatch watch;
   IsotropicFitResult result;
   {
@@ -82,23 +83,22 @@ int fitIsotropicL3(const FitArguments& a, const IsotropicTableOptions& tableOpti
   const Times times = watch.elapsed();
   result.info.provenance = makeProvenance(a);
   if (!a.reportPath.empty()) writeFileAtomically(a.reportPath, reportCsv(result));
-  std::unique_ptr<Score> score;
-  if (result.unusable == 0) {
-    const Table table(result.info, result.data);
-    writeFileAtomically(a.output, tableToJson(table));
-    score = scoreFit(table, a);
-  }
+  std::optional<FitOutput> output;
+  if (result.unusable == 0) output = writeFit(Table(result.info, result.data), a);
+  const std::unique_ptr<Score> score = output ? scoreFit(output->table, a) : nullptr;
   if (a.json) {
     nlohmann::ordered_json out = toJson(a, result, times);
+    if (output) addFitOutput(*output, &out);
     addLookup(summarizeLookup(result.info), &out);
     if (score) addScore(*score, &out);
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!a.quiet) {
-    printText(a, result, times);
+    printText(result, times);
+    if (output) printFitOutput(*output, a);
     printLookup(summarizeLookup(result.info));
     if (score) printScore(*score, a);
   }
-  return refuseUnusable(result.unusable, a);
+  return output ? exitCodeOf(*output) : refuseUnusable(result.unusable, a);
 }
 
 }  // namespace ltcfit::app

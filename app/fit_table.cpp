@@ -6,13 +6,14 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/commands.h"
+#include "app/fit_output.h"
 #include "app/fit_runs.h"
 #include "app/fit_summary.h"
 #include "app/progress.h"
 #include "export/atomic_file.h"
-#include "export/json_table.h"
 #include "fit/checkpoint.h"
 #include "report/statistics.h"
 
@@ -84,7 +85,6 @@ void printText(const FitArguments& a, const TablePlan& plan, const TableFitResul
   fmt::print("  alignment brings samples nearer: mean squared distance {:.4f} to {:.4f}\n",
              summarizeJobs(result, &JobResult::distanceBefore).mean,
              summarizeJobs(result, &JobResult::distanceAfter).mean);
-  if (result.unusable == 0) fmt::print("wrote {}\n", a.output);
 }
 
 nlohmann::ordered_json toJson(const FitArguments& a, const TablePlan& plan, const TableFitResult& result,
@@ -166,6 +166,7 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
     throw InputError(std::string("--axes, --theta-max or --alpha-floor: ") + error.what());
   }
   const std::unique_ptr<Checkpoint> checkpoint = openCheckpoint(a, plan);
+  checkRefinement(a);
   const std::size_t resumed = checkpoint ? checkpoint->size() : 0;
   const Stopwatch watch;
   TableFitResult result;
@@ -178,25 +179,24 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
   TableInfo info = plan.info;
   info.provenance = makeProvenance(a);
   if (!a.reportPath.empty()) writeFileAtomically(a.reportPath, reportCsv(plan, result));
-  std::unique_ptr<Table> table;
-  if (result.unusable == 0) {
-    table = std::make_unique<Table>(info, result.data);
-    writeFileAtomically(a.output, tableToJson(*table));
-  }
+  std::optional<FitOutput> output;
+  if (result.unusable == 0) output = writeFit(Table(info, result.data), a);
   // what made an unusable table stays, for --resume --report
-  if (checkpoint && table) checkpoint->remove();
-  const std::unique_ptr<Score> score = table ? scoreFit(*table, a) : nullptr;
+  if (checkpoint && output && output->written) checkpoint->remove();
+  const std::unique_ptr<Score> score = output ? scoreFit(output->table, a) : nullptr;
   if (a.json) {
     nlohmann::ordered_json out = toJson(a, plan, result, times, resumed);
+    if (output) addFitOutput(*output, &out);
     addLookup(summarizeLookup(info), &out);
     if (score) addScore(*score, &out);
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else if (!a.quiet) {
     printText(a, plan, result, times, resumed);
+    if (output) printFitOutput(*output, a);
     printLookup(summarizeLookup(info));
     if (score) printScore(*score, a);
   }
-  return refuseUnusable(result.unusable, a);
+  return output ? exitCodeOf(*output) : refuseUnusable(result.unusable, a);
 }
 
 }  // namespace ltcfit::app

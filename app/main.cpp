@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   addCheckGlCommand(app, status);
   addParetoCommand(app, status);
   addPrefilterCommand(app, status);
+  addRefineCommand(app, status);
   addReportCommand(app, status);
   addStabilityCommand(app, status);
   try {

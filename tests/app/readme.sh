@@ -3,7 +3,7 @@
 grep -E '^ltcfit fit (iso|aniso|entry) ' "$source_dir/README.md" | sed 's/ *#.*//' > commands
 [ "$(wc -l < commands)" -ge 6 ] || fail "the README's commands were not found"
 while read -r command; do
-  arguments=$(echo "$command" | sed -E 's/^ltcfit //; s/--size [0-9x]+//; s/--preset fine/--preset fast/')
+  arguments=$(echo "$command" | sed -E 's/^ltcfit //; s/--size [0-9x]+//; s/--preset fine/--preset fast/; s/--refine/--refine --refine-points 50 --refine-iterations 1/')
   case $arguments in
     *iso\ *-o*like2017*) size="--size 3x3" ;;
     fit\ iso*) size="--size 4x4" ;;
