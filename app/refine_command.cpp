@@ -97,8 +97,8 @@ int refineCommand(const RefineArguments& a) {
 
 void addRefineCommand(CLI::App& app, CommandStatus& status) {
   CLI::App* const command = app.add_subcommand(
-      "refine",
-      "Move all entries of a table together, so that what is read between its nodes is best\n"
+      "refine", "Move all entries of a table together, so that what is read between its nodes is best");
+  command->footer(
       "What is fitted is what a texture's linear filter, or the look-up of an anisotropic table, yields.\n"
       "Norm and Fresnel stay. Halves need nothing else: export --precision half rounds the result.");
   auto a = std::make_shared<RefineArguments>();
