@@ -30,7 +30,7 @@ std::string comment(const Table& table, const std::string& name, const std::vect
       "angle and\n"
       " * azimuth of the view vector in the tangent frame, radians.\n"
       " *\n"
-      " * {}: M, 9 floats row-major, third column of length 1. M takes clamped-cosine directions to the "
+      " * {}: M, 9 floats row-major, {}. M takes clamped-cosine directions to the "
       "lobe.\n"
       " *   Interpolate M in all four axes, then invert it; integrate with the inverse. {}\n"
       " *   phi beyond [0, pi/2]: mirror the view into the first quadrant and use F M F with F the mirror "
@@ -41,6 +41,9 @@ std::string comment(const Table& table, const std::string& name, const std::vect
       "0 any\n"
       " *   lambda will do: mind the 0 / 0.\n",
       name,
+      info.stores == MatrixStorage::kM && info.normalization == MatrixNormalization::kNone
+          ? "of a scale that weighs the node in look-ups"
+          : "third column of length 1",
       negative == 0
           ? std::string("det M > 0 at every node.")
           : fmt::format("det M < 0 at {} nodes:\n *   take the absolute value of the integral.", negative));

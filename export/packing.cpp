@@ -232,10 +232,16 @@ Packing packingOfChannels(const TableInfo& info, std::size_t components) {
   return packing;
 }
 
-PackedTable pack(const Table& table, const Packing& packing, Precision precision) {
+PackedTable pack(const Table& table, const Packing& asked, Precision precision) {
   PackedTable packed;
   packed.info = table.info();
-  packed.packing = packing;
+  packed.packing = asked;
+  // scales that were chosen for what lies between the nodes
+  if (asked.divisor == Divisor::kThirdColumn && !table.isIsotropic() &&
+      table.info().stores == MatrixStorage::kM && table.info().normalization == MatrixNormalization::kNone) {
+    packed.packing.divisor = Divisor::kNone;
+  }
+  const Packing packing = packed.packing;
   packed.precision = precision;
   std::array<bool, 9> placed{};
   for (TextureSpec& texture : packed.packing.textures) {

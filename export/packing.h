@@ -85,12 +85,14 @@ struct PackedTable {
 
 /// Packs a table. An isotropic one gives images of alpha (x) by theta (y), an anisotropic one volumes of phi
 /// (x) by theta (y) by lambda + n_lambda alpha (z). For kHalf every matrix is rounded as roundToHalf says and
-/// the other components to the nearest half; where the divisor leaves a free scale, the matrix is multiplied
-/// by the smallest power of two that keeps its diagonal away from subnormal halves. For norm and Fresnel of a
-/// table without them, and for the sphere table of an anisotropic one, "0" is written. Throws
-/// std::invalid_argument naming the node: an entry of a matrix has no place in the packing, there is no
-/// inverse, a number does not fit; naming the axis: the packing has a sphere table, for which an axis of one
-/// node has no room.
+/// the other components to the nearest half. An anisotropic table that stores M of any scale
+/// (MatrixNormalization::kNone: a refined one) keeps its scales where the packing would divide by the third
+/// column's length: they weigh its nodes in look-ups, and shaders take any. Where the divisor leaves a free
+/// scale, the matrix is multiplied by the smallest power of two that keeps its diagonal away from subnormal
+/// halves. For norm and Fresnel of a table without them, and for the sphere table of an anisotropic one, "0"
+/// is written. Throws std::invalid_argument naming the node: an entry of a matrix has no place in the
+/// packing, there is no inverse, a number does not fit; naming the axis: the packing has a sphere table, for
+/// which an axis of one node has no room.
 PackedTable pack(const Table& table, const Packing& packing, Precision precision);
 
 /// The table that is in the textures. Inverse of pack for float; for half the rounded numbers. Throws

@@ -17,9 +17,9 @@ namespace ltcfit {
 struct RefinementWeights {
   double sw = 1.3;           ///< sliced Wasserstein distance
   double swRel = 0.8;        ///< the same over the lobe's spread: sharp lobes count as much as wide ones
-  double ratio = 0.5;        ///< the same over that of the point's direct fit: the interpolation ratio
-  double form = 0.9;         ///< quads about the lobe
-  double light = 0.65;       ///< lights over the hemisphere, and mass below the horizon
+  double ratio = 0.9;        ///< the same over that of the point's direct fit: the interpolation ratio
+  double form = 0.8;         ///< quads about the lobe
+  double light = 1.05;       ///< lights over the hemisphere, and mass below the horizon
   double lightRatio = 0.05;  ///< the same over that of the point's direct fit
 };
 
@@ -28,17 +28,18 @@ struct RefinementOptions {
                          .targetSamples = 2048,
                          .samples = 512,
                          .lights = {.lights = 96, .sizeExponent = 0.0},
-                         .quads = 40};
+                         .quads = 40,
+                         .leakWeight = 0.12};
   RefinementWeights weights;
-  int points = 32768;  ///< look-ups over the table's domain, 16..2^22
+  int points = 40000;  ///< look-ups over the table's domain, 16..2^22
   /// The nodes are look-ups too, each counting as much as this many of the others, 0..1000.
   double nodeWeight = 1.0;
   /// Of neighbours' changes to differ, 0..1000: the root of what a difference of 1 costs. Keeps entries that
   /// few look-ups see from making up their own.
-  double smoothness = 0.35;
+  double smoothness = 0.4;
   /// The same for changes at all.
-  double prior = 0.03;
-  int iterations = 15;  ///< of Levenberg-Marquardt, 1..1000
+  double prior = 0.06;
+  int iterations = 13;  ///< of Levenberg-Marquardt, 1..1000
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as OpenMP offers; does not change the result
 
