@@ -10,4 +10,7 @@ for kind in iso aniso; do
   build/ltcfit export -q data/ltc_$kind.json -o data/ltc_$kind.ktx2 --precision half
 done
 build/ltcfit export -q data/ltc_iso.json --format chebyshev -o data/ltc_iso
+build/ltcfit refine -q data/ltc_aniso.json -o data/ltc_aniso_refined.json
+build/ltcfit export -q data/ltc_aniso_refined.json -o data/ltc_aniso_refined.h
+build/ltcfit export -q data/ltc_aniso_refined.json -o data/ltc_aniso_refined.ktx2 --precision half
 (cd data && sha256sum ltc_* > SHA256SUMS)

@@ -58,6 +58,18 @@ TEST(Packing, UnpackIsItsInverse) {
   }
 }
 
+// The scale of a node weighs it in look-ups: divided by the third column's length, a refined table would be
+// another one between its nodes.
+TEST(Packing, ScalesOfARefinedTableAreKept) {
+  const Table table = readTable(LTCFIT_DATA_DIR "/ltc_aniso_refined.json");
+  ASSERT_EQ(table.info().normalization, MatrixNormalization::kNone);
+  const Table back = unpack(pack(table, packingOfRows(), Precision::kFloat));
+  EXPECT_EQ(back.info().normalization, MatrixNormalization::kNone);
+  EXPECT_EQ(back.data(), table.data());
+  // and the scales differ, so that this tells something
+  EXPECT_GT(table.entry(table.node(2000)).m.col(2).norm() / table.entry(table.node(1)).m.col(2).norm(), 1.02);
+}
+
 TEST(Packing, HalvesAreHalves) {
   const Table table = readTable(LTCFIT_DATA_DIR "/ltc_aniso.json");
   const PackedTable packed = pack(table, packingOfRows(), Precision::kHalf);
