@@ -164,7 +164,8 @@ LookUpLoss::LookUpLoss(const LobeParameters& parameters, std::string_view brdf,
 }
 
 bool LookUpLoss::isLtc(const Matrix3d& m) {
-  return m.allFinite() && m.determinant() != 0.0 && m.inverse().allFinite() && m.row(2).norm() + m(2, 2) > 0.0;
+  return m.allFinite() && m.determinant() != 0.0 && m.inverse().allFinite() &&
+         m.row(2).norm() + m(2, 2) > 0.0;
 }
 
 LookUpErrors LookUpLoss::errors(const Matrix3d& m, LookUpSamples& samples) const {
