@@ -169,7 +169,9 @@ void checkFitArguments(const CLI::App& command, const FitArguments& a) {
     refuse("--family " + a.family + " needs --fitter l3: the others fit all 4 parameters");
   for (const char* const option : {"--refine-points", "--refine-iterations"})
     if (!a.refine && given(option)) refuse(std::string(option) + " needs --refine");
-  if (a.refine) refinementOptions(a.refinePoints, a.refineIterations, a.seed, a.threads, "refine-");
+  if (a.refine)
+    refinementOptions(a.kind == FitKind::kIsotropic, a.refinePoints, a.refineIterations, a.seed, a.threads,
+                      "refine-");
   if (isWarmStartedL3(a) && a.resume && !a.refine)
     refuse("--resume needs --fitter light, sw or sw-sgd: the l3 fit of an isotropic table takes seconds");
 }

@@ -33,7 +33,8 @@ FitOutput writeFit(const Table& table, const FitArguments& a) {
     return {table, true};
   }
   RefinementRequest request;
-  request.options = refinementOptions(a.refinePoints, a.refineIterations, a.seed, a.threads, "refine-");
+  request.options = refinementOptions(a.kind == FitKind::kIsotropic, a.refinePoints, a.refineIterations,
+                                      a.seed, a.threads, "refine-");
   request.stores = usualStorage(table.isIsotropic());
   request.resume = a.resume;
   request.quiet = a.quiet;

@@ -70,7 +70,7 @@ int refineCommand(const RefineArguments& a) {
   const bool ours = info.provenance.tool == "ltcfit" && info.provenance.seed >= 0;
   const std::int64_t seed =
       a.seed.value_or(ours ? info.provenance.seed : static_cast<std::int64_t>(RefinementOptions{}.seed));
-  request.options = refinementOptions(a.points, a.iterations, seed, a.threads, "");
+  request.options = refinementOptions(isotropic, a.points, a.iterations, seed, a.threads, "");
 
   const RefinementSource source{std::filesystem::path(a.table).filename().string(), isAsFitted(file)};
   const RefinementRun run = refineToFile(file.table, source, request, a.output,

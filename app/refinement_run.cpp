@@ -119,9 +119,9 @@ MatrixStorage usualStorage(bool isotropic) {
   return isotropic ? MatrixStorage::kMinv : MatrixStorage::kM;
 }
 
-RefinementOptions refinementOptions(int points, int iterations, std::int64_t seed, int threads,
-                                    const std::string& prefix) {
-  RefinementOptions o;
+RefinementOptions refinementOptions(bool isotropic, int points, int iterations, std::int64_t seed,
+                                    int threads, const std::string& prefix) {
+  RefinementOptions o = refinementDefaults(isotropic ? TableKind::kIsotropic : TableKind::kAnisotropic);
   o.points = points;
   o.iterations = iterations;
   o.seed = static_cast<std::uint64_t>(seed);

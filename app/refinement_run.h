@@ -30,10 +30,11 @@ struct RefinementSource {
 /// M for anisotropic tables, Minv for isotropic ones: as the textures of engines hold them.
 MatrixStorage usualStorage(bool isotropic);
 
-/// The options with the numbers given, valid; throws std::invalid_argument naming the option as
+/// The defaults of a kind of table with the numbers given, valid; throws std::invalid_argument naming the
+/// option as
 /// "--`prefix`NAME", its value and its range.
-RefinementOptions refinementOptions(int points, int iterations, std::int64_t seed, int threads,
-                                    const std::string& prefix);
+RefinementOptions refinementOptions(bool isotropic, int points, int iterations, std::int64_t seed,
+                                    int threads, const std::string& prefix);
 
 struct RefinementRun {
   Table before;  ///< the table as given, in the form in which it is refined

@@ -351,6 +351,7 @@ double ProjectedCosine::loss(const ProjectedLobe& lobe, const Matrix3d& m, Deriv
   const Matrix3d gradient = perSlice * m.transpose() * gradientOfPulls();
   for (Eigen::Index k = 0; k < 9; ++k) derivatives->gradient[k] = gradient(k / 3, k % 3);
   derivatives->curvature *= perSlice;
+  derivatives->curvature.triangularView<Eigen::StrictlyUpper>() = derivatives->curvature.transpose().eval();
   return sum * perSlice;
 }
 

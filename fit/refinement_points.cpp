@@ -16,7 +16,7 @@ struct Crowding {
   bool high;
 };
 constexpr std::array<Crowding, 2> kIsotropic{
-    {{AxisMap::kSqrtOneMinusCos, 0.0, false}, {AxisMap::kSqrt, 0.0, false}}};
+    {{AxisMap::kSqrtOneMinusCos, 0.8, true}, {AxisMap::kSqrt, 0.8, false}}};
 constexpr std::array<Crowding, 4> kAnisotropic{{{AxisMap::kLinear, 0.8, false},
                                                 {AxisMap::kLinear, 0.6, false},
                                                 {AxisMap::kLinear, 0.8, true},

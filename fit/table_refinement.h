@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/lobe_fit.h"
 #include "fit/lookup_loss.h"
 #include "fit/optimizer.h"
 #include "ltc/table.h"
@@ -46,6 +47,10 @@ struct RefinementOptions {
   /// False with a message naming the option, its value and its range.
   bool isValid(std::string* error) const;
 };
+
+/// Those of a kind of table. An isotropic one has many entries, each read by few look-ups: it is held
+/// stiffer, else at sharp lobes and grazing view the inverses of neighbours do not interpolate.
+RefinementOptions refinementDefaults(TableKind kind);
 
 /// Where a refinement stands.
 struct RefinementState {
