@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/commands.h"
+#include "app/paths.h"
 #include "app/progress.h"
+#include "base/angles.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "render/shading_check.h"
@@ -22,8 +23,6 @@
 
 namespace ltcfit::app {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 struct CheckGlArguments {
   std::string table;
@@ -47,10 +46,6 @@ struct CheckGlArguments {
 
   bool isCustom() const { return !light.empty() || alphaX > 0.0 || alphaY > 0.0 || angle; }
 };
-
-std::string fileName(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
 
 // CLI11's ranges let NaN through.
 void checkArguments(const CheckGlArguments& a) {
@@ -78,7 +73,7 @@ ShadingCheckOptions toOptions(const CheckGlArguments& a) {
   const double x = a.alphaX > 0.0 ? a.alphaX : a.alphaY;
   const double y = a.alphaY > 0.0 ? a.alphaY : a.alphaX;
   if (x > 0.0) custom.alpha = Eigen::Vector2d(x, y);
-  custom.angle = a.angle.value_or(0.0) * kRadians;
+  custom.angle = a.angle.value_or(0.0) * kRadiansPerDegree;
   o.custom = custom;
   return o;
 }
@@ -185,7 +180,7 @@ void printCheck(const CheckGlArguments& a, const ShadingCheckOptions& options, c
           : fmt::format("{} scenes FAILED", failed));
 }
 
-void makeFolder(const std::string& path) {
+void makePictureFolder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (!std::filesystem::is_directory(path))
@@ -218,7 +213,7 @@ void checkOutput(const CheckGlArguments& a, const ShadingCheckOptions& options) 
     const std::vector<std::string> more = filesOfTable(a.against);
     inputs.insert(inputs.end(), more.begin(), more.end());
   }
-  makeFolder(a.output);
+  makePictureFolder(a.output);
   for (const std::string& name : outputNames(options)) {
     const std::string path = (std::filesystem::path(a.output) / name).string();
     for (const std::string& input : inputs)

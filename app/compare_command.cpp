@@ -4,19 +4,17 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "base/angles.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/compare.h"
 
 namespace ltcfit::app {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct CompareArguments {
   std::string first;
@@ -25,7 +23,7 @@ struct CompareArguments {
   bool json = false;
 };
 
-std::string describe(const Table& table) {
+std::string describeTable(const Table& table) {
   const TableInfo& info = table.info();
   std::string text;
   for (const Axis& axis : info.axes)
@@ -57,7 +55,7 @@ void printJson(const CompareArguments& a, const TableDifference& d) {
 }
 
 void printText(const CompareArguments& a, const Table& first, const Table& second, const TableDifference& d) {
-  fmt::print("A {}\n  {}\nB {}\n  {}\n", a.first, describe(first), a.second, describe(second));
+  fmt::print("A {}\n  {}\nB {}\n  {}\n", a.first, describeTable(first), a.second, describeTable(second));
   if (!d.sameNodes) fmt::print("other nodes: B is interpolated at those of A\n");
   if (d.sameStorage) {
     std::size_t different = 0;
@@ -83,7 +81,7 @@ void printText(const CompareArguments& a, const Table& first, const Table& secon
   if (d.sw1.count > 0 && d.sw1.max > 0.0) {
     const LobeParameters p = first.parameters(first.node(d.worstNode));
     fmt::print("largest SW1 at alpha_x {:.6g}, alpha_y {:.6g}, theta {:.2f} deg, phi {:.2f} deg\n", p.alphaX,
-               p.alphaY, p.theta * kDegrees, p.phi * kDegrees);
+               p.alphaY, p.theta * kDegreesPerRadian, p.phi * kDegreesPerRadian);
   }
   for (const std::string& channel : d.oneSided)
     fmt::print("only one of the two has the channel {}\n", channel);

@@ -10,11 +10,10 @@
 #include "app/axes_argument.h"
 #include "app/commands.h"
 #include "app/refinement_run.h"
+#include "base/angles.h"
 
 namespace ltcfit::app {
 namespace {
-
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 TableKind kindOf(const FitArguments& a) {
   return a.kind == FitKind::kIsotropic ? TableKind::kIsotropic : TableKind::kAnisotropic;

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "base/angles.h"
 #include "fit/target_lobe.h"
 #include "report/metrics.h"
 
 namespace ltcfit::app {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // SW1 of the lobe's LTC in float32 and in halves.
 void printNode(std::FILE* out, const Table& table, const HalfNode& node) {
@@ -25,7 +23,7 @@ void printNode(std::FILE* out, const Table& table, const HalfNode& node) {
   const std::unique_ptr<Lobe> lobe = makeTargetLobe(table.info().brdf, p);
   const MetricTarget target(*lobe, options);
   fmt::print(out, "  {:>10.6g} {:>10.6g} {:>9.4f} {:>9.4f} {:>12.2e} {:>10.4f} {:>11.3e} {:>11.3e}{}\n",
-             p.alphaX, p.alphaY, p.theta * kDegrees, p.phi * kDegrees, node.shift, 100.0 * node.detError,
+             p.alphaX, p.alphaY, p.theta * kDegreesPerRadian, p.phi * kDegreesPerRadian, node.shift, 100.0 * node.detError,
              target.sw1(Ltc(table.entry(table.node(node.node)).m)), target.sw1(Ltc(node.m)),
              node.constrained ? "  bounded" : "");
 }

@@ -13,7 +13,7 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr std::array<const char*, 3> kOf{"direct_fits", "before", "after"};
 constexpr std::array<const char*, 3> kOfText{"direct fits", "before", "after"};
 
-OrderedJson toJson(const FreshErrors& e, bool direct) {
+OrderedJson figuresJson(const FreshErrors& e, bool direct) {
   OrderedJson json{{"sw", e.mean.sw}, {"sw_rel", e.swRel}, {"form", e.mean.form}, {"light", e.mean.light}};
   if (!direct) {
     json["below"] = e.below;
@@ -22,7 +22,7 @@ OrderedJson toJson(const FreshErrors& e, bool direct) {
   return json;
 }
 
-OrderedJson toJson(const Summary& s) {
+OrderedJson figuresJson(const Summary& s) {
   return {{"mean", s.mean}, {"p99", s.p99}, {"max", s.max}, {"non_finite", s.nonFinite}};
 }
 
@@ -76,10 +76,10 @@ void addRefinement(const RefinementRun& run, const RefinementFigures& figures, O
   if (figures.count == 0) return;
   json["fresh"]["count"] = figures.count;
   for (std::size_t i = 0; i < figures.errors.size(); ++i)
-    json["fresh"][kOf[i]] = toJson(figures.errors[i], i == 0);
+    json["fresh"][kOf[i]] = figuresJson(figures.errors[i], i == 0);
   for (std::size_t a = 0; a < figures.before.size(); ++a)
-    json["smoothness"][figures.before[a].axis] = {{"before", toJson(figures.before[a].summary)},
-                                                  {"after", toJson(figures.after[a].summary)}};
+    json["smoothness"][figures.before[a].axis] = {{"before", figuresJson(figures.before[a].summary)},
+                                                  {"after", figuresJson(figures.after[a].summary)}};
 }
 
 }  // namespace ltcfit::app

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "app/paths.h"
 #include "app/metric_arguments.h"
 #include "app/progress.h"
 #include "export/atomic_file.h"
@@ -40,10 +41,6 @@ struct ReportArguments {
   bool gate = false;
   bool quiet = false;
 };
-
-std::string fileName(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
 
 // Beside the page, by the same name.
 std::string jsonPath(const std::string& page) {

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "base/angles.h"
 #include "scene/read_scene.h"
 
 namespace ltcfit::app {
@@ -89,8 +90,7 @@ ScenePlan planOf(const CLI::App& command, const SceneArguments& a) {
   if (!a.views.empty()) {
     if (!(a.views[0] <= a.views[1]))
       throw std::invalid_argument("--views: need two angles, the lower one first");
-    constexpr double kDegree = std::numbers::pi / 180.0;
-    use.views = {a.views[0] * kDegree, std::min(a.views[1] * kDegree, 0.5 * std::numbers::pi)};
+    use.views = {a.views[0] * kRadiansPerDegree, std::min(a.views[1] * kRadiansPerDegree, 0.5 * std::numbers::pi)};
   }
   Progress progress("plan", a.quiet);
   return planScene(use, request, a.threads,

@@ -12,7 +12,7 @@
 namespace ltcfit {
 namespace {
 
-std::string comment(const Table& table, const std::string& name, const std::vector<std::string>& channels) {
+std::string anisotropicComment(const Table& table, const std::string& name, const std::vector<std::string>& channels) {
   const TableInfo& info = table.info();
   std::size_t negative = 0;
   for (std::size_t i = 0; i < table.nodeCount(); ++i)
@@ -106,7 +106,7 @@ std::string tableToAnisotropicCHeader(const Table& table, const std::string& nam
     if (!channels.empty()) amplitudes += open(i) + row(packed.images[1], i) + close(i);
   }
   const std::string guard = upper(id) + "_H";
-  std::string out = comment(table, id, channels);
+  std::string out = anisotropicComment(table, id, channels);
   out += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
   out += fmt::format("static const float {}{}[9] = {{\n{}}};\n", id, sizes, matrices);
   if (!channels.empty())

@@ -11,7 +11,7 @@
 namespace ltcfit {
 namespace {
 
-std::string comment(const Table& table, const std::string& name, const std::vector<std::string>& amplitudes) {
+std::string isotropicComment(const Table& table, const std::string& name, const std::vector<std::string>& amplitudes) {
   const TableInfo& info = table.info();
   const Axis& y = info.axes[0];
   const Axis& x = info.axes[1];
@@ -58,7 +58,7 @@ std::string tableToCHeader(const Table& table, const std::string& prefix) {
   const std::string guard = upper(name) + "_H";
   const std::size_t n = table.nodeCount();
 
-  std::string out = comment(table, name, amplitudes);
+  std::string out = isotropicComment(table, name, amplitudes);
   out += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
   out += fmt::format("enum {{ {0}_width = {1}, {0}_height = {2} }};\n\n", name, packed.images[0].width,
                      packed.images[0].height);

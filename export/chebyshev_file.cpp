@@ -11,18 +11,18 @@
 namespace ltcfit {
 namespace {
 
-constexpr const char* kFormat = "ltc-chebyshev";
-constexpr int kVersion = 1;
+constexpr const char* kChebyshevFormat = "ltc-chebyshev";
+constexpr int kChebyshevVersion = 1;
 constexpr double kLargestHalf = 65504.0;
 
 ChebyshevForm readForm(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kFormat) throw InputError("format is not \"" + std::string(kFormat) + "\"");
+  if (file.text("format") != kChebyshevFormat) throw InputError("format is not \"" + std::string(kChebyshevFormat) + "\"");
   const Json& version = file.get("version");
-  if (!version.is_number_integer() || version != kVersion)
+  if (!version.is_number_integer() || version != kChebyshevVersion)
     throw InputError(fmt::format("version {} is not known; this program reads version {}",
                                  version.is_number() ? version.dump() : std::string("of another type"),
-                                 kVersion));
+                                 kChebyshevVersion));
   if (file.text("brdf") != "ggx") throw InputError("brdf '" + file.text("brdf") + "' is not known (ggx)");
   ChebyshevForm form;
   form.alphaFloor = file.number("alpha_floor");
@@ -64,8 +64,8 @@ std::string chebyshevToJson(const ChebyshevForm& form, const ChebyshevDifference
   const auto field = [&out](const char* key, const Json& value) {
     out += fmt::format("  \"{}\": {},\n", key, value.dump());
   };
-  field("format", kFormat);
-  field("version", kVersion);
+  field("format", kChebyshevFormat);
+  field("version", kChebyshevVersion);
   field("brdf", "ggx");
   field("alpha_floor", form.alphaFloor);
   field("variables", {{"x", "2 sqrt(alpha) - 1"},
@@ -95,11 +95,11 @@ std::string chebyshevToJson(const ChebyshevForm& form, const ChebyshevDifference
 }
 
 bool isChebyshevJson(std::string_view text) {
-  if (text.find(kFormat) == std::string_view::npos) return false;
+  if (text.find(kChebyshevFormat) == std::string_view::npos) return false;
   bool is = false;
   try {
     readJson(text, "", [&](const Json& json) {
-      is = json.is_object() && json.contains("format") && json["format"] == kFormat;
+      is = json.is_object() && json.contains("format") && json["format"] == kChebyshevFormat;
     });
   } catch (const InputError&) {
     is = true;  // damaged, which the reader will say

@@ -16,7 +16,7 @@
 namespace ltcfit {
 namespace {
 
-constexpr std::string_view kMagic = "DDS ";
+constexpr std::string_view kDdsMagic = "DDS ";
 constexpr std::size_t kLegacySize = 128;
 constexpr std::size_t kDx10Size = 148;
 constexpr std::uint32_t kDx10 = 0x30315844;  // "DX10"
@@ -27,16 +27,16 @@ constexpr std::uint32_t kFourCc = 0x4;                                          
 constexpr std::uint32_t kComplex = 0x8, kTexture = 0x1000, kMipMap = 0x400000;  // DDSCAPS_
 constexpr std::uint32_t kCubeMap = 0x200 | 0xFC00, kVolume = 0x200000;          // DDSCAPS2_
 constexpr std::uint32_t kTexture2d = 3, kTexture3d = 4;                         // D3D10_RESOURCE_DIMENSION_
-constexpr std::size_t kMaxSide = 16384;                                         // of Direct3D 11, 2D
+constexpr std::size_t kMaxDdsSide = 16384;                                         // of Direct3D 11, 2D
 constexpr std::size_t kMaxSlices = 2048;  // of volumes and arrays there, 2D
 
-struct Format {
+struct DdsFormat {
   std::uint32_t fourCc;  // D3DFMT
   std::uint32_t dxgi;
   std::size_t components;
   Precision precision;
 };
-constexpr std::array<Format, 6> kFormats{{{113, 10, 4, Precision::kHalf},
+constexpr std::array<DdsFormat, 6> kDdsFormats{{{113, 10, 4, Precision::kHalf},
                                           {116, 2, 4, Precision::kFloat},
                                           {112, 34, 2, Precision::kHalf},
                                           {115, 16, 2, Precision::kFloat},
@@ -44,18 +44,18 @@ constexpr std::array<Format, 6> kFormats{{{113, 10, 4, Precision::kHalf},
                                           {114, 41, 1, Precision::kFloat}}};
 
 // Throws for a format that there is none of.
-const Format& formatOf(const Image& image) {
-  for (const Format& f : kFormats) {
+const DdsFormat& ddsFormatOf(const Image& image) {
+  for (const DdsFormat& f : kDdsFormats) {
     if (f.components == image.components && f.precision == image.precision) return f;
   }
   throw std::invalid_argument("DDS: need 1, 2 or 4 components a texel");
 }
 
 std::string headerOf(const Image& image, DdsHeader header, std::size_t levels) {
-  const Format& format = formatOf(image);
+  const DdsFormat& format = ddsFormatOf(image);
   const bool volume = image.depth > 1;
   const auto u32 = [](std::size_t v) { return static_cast<std::uint32_t>(v); };
-  std::string out(kMagic);
+  std::string out(kDdsMagic);
   append(out, std::uint32_t{124});
   append(out, kCaps | kHeight | kWidth | kPitch | kPixelFormat | (volume ? kDepth : 0u) |
                   (levels > 1 ? kMipCount : 0u));
@@ -90,7 +90,7 @@ struct ParsedHeader {
   std::size_t size = kLegacySize;
 };
 
-ParsedHeader parseHeader(std::string_view bytes, const std::string& name) {
+ParsedHeader parseDdsHeader(std::string_view bytes, const std::string& name) {
   if (!isDds(bytes) || bytes.size() < kLegacySize || readAt<std::uint32_t>(bytes, 4) != 124)
     throw InputError(name + ": not a DDS file, or cut off in its header");
   const std::uint32_t fourCc = readAt<std::uint32_t>(bytes, 84);
@@ -101,7 +101,7 @@ ParsedHeader parseHeader(std::string_view bytes, const std::string& name) {
   ParsedHeader header;
   Image& image = header.image;
   bool known = false;
-  for (const Format& f : kFormats) {
+  for (const DdsFormat& f : kDdsFormats) {
     if (code != (dx10 ? f.dxgi : f.fourCc)) continue;
     image.components = f.components;
     image.precision = f.precision;
@@ -121,8 +121,8 @@ ParsedHeader parseHeader(std::string_view bytes, const std::string& name) {
   if (dx10) image.layers = readAt<std::uint32_t>(bytes, kLegacySize + 12);
   if (dx10) header.size = kDx10Size;
   for (std::size_t side : {image.width, image.height, image.depth, image.layers}) {
-    if (side == 0 || side > kMaxSide)
-      throw InputError(fmt::format("{}: DDS header: a size of {}; need 1 to {}", name, side, kMaxSide));
+    if (side == 0 || side > kMaxDdsSide)
+      throw InputError(fmt::format("{}: DDS header: a size of {}; need 1 to {}", name, side, kMaxDdsSide));
   }
   return header;
 }
@@ -130,10 +130,10 @@ ParsedHeader parseHeader(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 std::string imageToDds(const Image& image, DdsHeader header) {
-  formatOf(image);
+  ddsFormatOf(image);
   if (image.layers > 1 && (image.depth > 1 || header == DdsHeader::kLegacy))
     throw std::invalid_argument("DDS: this header has no place for an array of textures");
-  if (image.width > kMaxSide || image.height > kMaxSide || image.depth > kMaxSlices ||
+  if (image.width > kMaxDdsSide || image.height > kMaxDdsSide || image.depth > kMaxSlices ||
       image.layers > kMaxSlices)
     throw std::invalid_argument(fmt::format("DDS: {} x {} x {} texels are more than Direct3D takes",
                                             image.width, image.height, image.depth));
@@ -143,7 +143,7 @@ std::string imageToDds(const Image& image, DdsHeader header) {
 }
 
 std::string mipsToDds(const std::vector<Image>& levels) {
-  if (!isMipChain(levels) || levels[0].width > kMaxSide || levels[0].height > kMaxSide)
+  if (!isMipChain(levels) || levels[0].width > kMaxDdsSide || levels[0].height > kMaxDdsSide)
     throw std::invalid_argument("DDS: the levels are no chain of mip maps that Direct3D takes");
   std::string out = headerOf(levels[0], DdsHeader::kDx10, levels.size());
   for (const Image& level : levels) appendValues(out, level.values, level.precision);
@@ -151,11 +151,11 @@ std::string mipsToDds(const std::vector<Image>& levels) {
 }
 
 bool isDds(std::string_view bytes) {
-  return bytes.starts_with(kMagic);
+  return bytes.starts_with(kDdsMagic);
 }
 
 Image parseDds(std::string_view bytes, const std::string& name) {
-  ParsedHeader header = parseHeader(bytes, name);
+  ParsedHeader header = parseDdsHeader(bytes, name);
   if (header.levels > 1) throw InputError(name + ": DDS with mip maps; a table has none");
   Image& image = header.image;
   const std::size_t present = bytes.size() - header.size;
@@ -169,7 +169,7 @@ Image parseDds(std::string_view bytes, const std::string& name) {
 }
 
 std::vector<Image> parseDdsMips(std::string_view bytes, const std::string& name) {
-  const ParsedHeader header = parseHeader(bytes, name);
+  const ParsedHeader header = parseDdsHeader(bytes, name);
   const Image& finest = header.image;
   if (finest.depth > 1 || finest.layers > 1 || finest.components != 4)
     throw InputError(name + ": DDS: need one RGBA texture of two dimensions");

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 
+#include "base/angles.h"
 #include "export/anisotropic_c_header.h"
 #include "export/c_header.h"
 #include "export/chebyshev_file.h"
@@ -36,7 +36,6 @@ bool isLookup(const FormatInfo& format) {
 
 // What the shaders that we ship (render/shaders) take for granted about the nodes.
 bool isForOurShaders(const Table& table) {
-  constexpr double kHalfPi = 0.5 * std::numbers::pi;
   const std::vector<Axis>& axes = table.info().axes;
   if (table.isIsotropic())
     return axes[0].spans(AxisMap::kSqrtOneMinusCos, kHalfPi) && axes[1].spans(AxisMap::kSqrt, 1.0);

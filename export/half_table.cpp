@@ -17,7 +17,7 @@ namespace ltcfit {
 namespace {
 
 constexpr double kSmallestNormalHalf = 6.103515625e-5;
-constexpr double kLargestHalf = 65504.0;
+constexpr double kLargestHalfEntry = 65504.0;
 constexpr double kNotableShift = 0.05;  // rad
 
 // The matrices of the nodes one step away along each axis.
@@ -49,7 +49,7 @@ double halfScale(const std::vector<Eigen::Matrix3d>& matrices) {
     largest = std::max(largest, m.cwiseAbs().maxCoeff());
   }
   double scale = 1.0;
-  while (smallest * scale < kSmallestNormalHalf && 2.0 * largest * scale <= kLargestHalf) scale *= 2.0;
+  while (smallest * scale < kSmallestNormalHalf && 2.0 * largest * scale <= kLargestHalfEntry) scale *= 2.0;
   return scale;
 }
 

@@ -12,17 +12,17 @@
 namespace ltcfit {
 namespace {
 
-constexpr const char* kFormat = "ltc-table";
-constexpr int kVersion = 1;
+constexpr const char* kTableFormat = "ltc-table";
+constexpr int kTableVersion = 1;
 
 Table readTable(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kFormat) throw InputError("format is not \"" + std::string(kFormat) + "\"");
+  if (file.text("format") != kTableFormat) throw InputError("format is not \"" + std::string(kTableFormat) + "\"");
   const Json& version = file.get("version");
-  if (!version.is_number_integer() || version != kVersion) {
+  if (!version.is_number_integer() || version != kTableVersion) {
     throw InputError(fmt::format("version {} is not known; this program reads version {}",
                                  version.is_number() ? version.dump() : std::string("of another type"),
-                                 kVersion));
+                                 kTableVersion));
   }
   TableInfo info;
   info.brdf = file.text("brdf");
@@ -54,8 +54,8 @@ std::string tableToJson(const Table& table) {
   const auto field = [&out](const char* key, const Json& value) {
     out += fmt::format("  \"{}\": {},\n", key, value.dump());
   };
-  field("format", kFormat);
-  field("version", kVersion);
+  field("format", kTableFormat);
+  field("version", kTableVersion);
   field("brdf", info.brdf);
   out += "  \"axes\": [";
   for (std::size_t a = 0; a < info.axes.size(); ++a) {

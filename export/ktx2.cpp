@@ -13,7 +13,7 @@
 #include "export/little_endian.h"
 #include "export/mip_chain.h"
 
-// KTX File Format Specification 2.0, revision 4: identifier, header, index, level index, data format
+// KTX File KtxFormat Specification 2.0, revision 4: identifier, header, index, level index, data format
 // descriptor, key/value data, levels.
 namespace ltcfit {
 namespace {
@@ -27,23 +27,23 @@ constexpr std::uint32_t kZstd = 2;
 constexpr std::size_t kMaxRatio = 256;
 // That of zstd itself, a block of 128 KiB of one byte in 4 bytes: pictures may be black.
 constexpr std::size_t kMaxPictureRatio = 32768;
-constexpr std::size_t kMaxSide = 16384;
+constexpr std::size_t kMaxKtxSide = 16384;
 constexpr int kZstdLevel = 19;  // smallest output for 64 KiB; takes 20 ms
 constexpr int kZstdPictureLevel = 9;
 
-struct Format {
+struct KtxFormat {
   std::uint32_t vkFormat;
   std::size_t components;
   Precision precision;
 };
-constexpr std::array<Format, 6> kFormats{{{76, 1, Precision::kHalf},
+constexpr std::array<KtxFormat, 6> kKtxFormats{{{76, 1, Precision::kHalf},
                                           {83, 2, Precision::kHalf},
                                           {97, 4, Precision::kHalf},
                                           {100, 1, Precision::kFloat},
                                           {103, 2, Precision::kFloat},
                                           {109, 4, Precision::kFloat}}};
 
-// Khronos Data Format Specification 1.4, basic descriptor block.
+// Khronos Data KtxFormat Specification 1.4, basic descriptor block.
 std::string dataFormatDescriptor(const Image& image) {
   const auto bits = static_cast<std::uint32_t>(8 * image.bytesPerValue());
   const auto samples = static_cast<std::uint32_t>(image.components);
@@ -124,8 +124,8 @@ std::string_view part(std::string_view bytes, std::uint64_t offset, std::uint64_
   return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
-const Format* formatOf(const Image& image) {
-  for (const Format& f : kFormats) {
+const KtxFormat* ktxFormatOf(const Image& image) {
+  for (const KtxFormat& f : kKtxFormats) {
     if (f.components == image.components && f.precision == image.precision) return &f;
   }
   return nullptr;
@@ -147,7 +147,7 @@ std::string toKtx2(std::span<const Image> images,
   const auto u32 = [](std::size_t v) { return static_cast<std::uint32_t>(v); };
 
   std::string out(kIdentifier);
-  append(out, formatOf(image)->vkFormat);
+  append(out, ktxFormatOf(image)->vkFormat);
   append(out, u32(image.bytesPerValue()));  // typeSize
   append(out, u32(image.width));
   append(out, u32(image.height));
@@ -182,21 +182,21 @@ std::string toKtx2(std::span<const Image> images,
 }
 
 // What the header says: the finest level, without its values, and how many levels there are.
-struct Header {
+struct KtxHeader {
   Image image;
   std::size_t levels = 1;
   bool isPacked = false;
   std::vector<std::pair<std::string, std::string>> keyValues;
 };
 
-Header parseHeader(std::string_view bytes, const std::string& name) {
+KtxHeader parseKtxHeader(std::string_view bytes, const std::string& name) {
   if (!isKtx2(bytes) || bytes.size() < kHeaderSize + kLevelIndexSize)
     throw InputError(name + ": not a KTX2 file, or cut off in its header");
   const auto field = [&](std::size_t offset) { return readAt<std::uint32_t>(bytes, offset); };
-  Header header;
+  KtxHeader header;
   Image& image = header.image;
   bool known = false;
-  for (const Format& f : kFormats) {
+  for (const KtxFormat& f : kKtxFormats) {
     if (field(12) != f.vkFormat) continue;
     image.components = f.components;
     image.precision = f.precision;
@@ -216,8 +216,8 @@ Header parseHeader(std::string_view bytes, const std::string& name) {
     throw InputError(fmt::format("{}: KTX2 supercompression {} is not known (0 none, 2 zstd)", name, scheme));
   header.isPacked = scheme == kZstd;
   for (std::size_t side : {image.width, image.height, image.depth, image.layers}) {
-    if (side == 0 || side > kMaxSide)
-      throw InputError(fmt::format("{}: KTX2 header: a size of {}; need 1 to {}", name, side, kMaxSide));
+    if (side == 0 || side > kMaxKtxSide)
+      throw InputError(fmt::format("{}: KTX2 header: a size of {}; need 1 to {}", name, side, kMaxKtxSide));
   }
   header.keyValues = parseKeyValues(part(bytes, field(56), field(60), "key/value data", name), name);
   return header;
@@ -242,7 +242,7 @@ std::vector<float> parseLevel(std::string_view bytes, std::size_t l, const Image
 
 std::string imageToKtx2(const Ktx2File& file, Ktx2Compression compression) {
   const Image& image = file.image;
-  if (formatOf(image) == nullptr) throw std::invalid_argument("KTX2: need 1, 2 or 4 components a texel");
+  if (ktxFormatOf(image) == nullptr) throw std::invalid_argument("KTX2: need 1, 2 or 4 components a texel");
   if (image.layers > 1 && image.depth > 1) throw std::invalid_argument("KTX2: no arrays of volumes");
   return toKtx2({&image, 1}, file.keyValues, compression, kZstdLevel);
 }
@@ -257,7 +257,7 @@ bool isKtx2(std::string_view bytes) {
 }
 
 Ktx2File parseKtx2(std::string_view bytes, const std::string& name) {
-  Header header = parseHeader(bytes, name);
+  KtxHeader header = parseKtxHeader(bytes, name);
   if (header.levels > 1)
     throw InputError(fmt::format("{}: KTX2 with {} levels; a table has one", name, header.levels));
   Ktx2File file{std::move(header.image), std::move(header.keyValues)};
@@ -266,7 +266,7 @@ Ktx2File parseKtx2(std::string_view bytes, const std::string& name) {
 }
 
 Ktx2Mips parseKtx2Mips(std::string_view bytes, const std::string& name) {
-  Header header = parseHeader(bytes, name);
+  KtxHeader header = parseKtxHeader(bytes, name);
   const Image& finest = header.image;
   if (finest.depth > 1 || finest.layers > 1 || finest.components != 4)
     throw InputError(name + ": KTX2: need one RGBA texture of two dimensions");

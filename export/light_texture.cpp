@@ -17,11 +17,11 @@
 namespace ltcfit {
 namespace {
 
-constexpr const char* kFormat = "ltc-light-texture";
-constexpr int kVersion = 1;
+constexpr const char* kLightFormat = "ltc-light-texture";
+constexpr int kLightVersion = 1;
 // 4096^2 texels of 16 bytes and their mip maps are below 2^29 bytes
 constexpr std::uint64_t kMaxFile = std::uint64_t{1} << 30;
-constexpr std::uint64_t kMaxSidecar = 1 << 16;
+constexpr std::uint64_t kMaxLightSidecar = 1 << 16;
 
 bool isSquareChain(const std::vector<Image>& levels) {
   return isMipChain(levels) && levels[0].width == levels[0].height && levels.back().texels() == 1;
@@ -29,7 +29,7 @@ bool isSquareChain(const std::vector<Image>& levels) {
 
 // `sum` of the file, where the metadata lie beside it.
 std::string metadataOf(const LightTextureFile& texture, const std::string& sum) {
-  Json json{{"format", kFormat}, {"version", kVersion}};
+  Json json{{"format", kLightFormat}, {"version", kLightVersion}};
   json["margin"] = texture.margin;
   json["aspect"] = texture.aspect;
   json["lod_scale"] = texture.lodScale;
@@ -47,9 +47,9 @@ void readMetadata(std::string_view text, const std::string& name, const std::str
                   LightTextureFile& texture) {
   readJson(text, name, [&](const Json& json) {
     const JsonFields file(json, "");
-    if (file.text("format") != kFormat) throw InputError(fmt::format("format is not \"{}\"", kFormat));
-    if (!file.get("version").is_number_integer() || file.get("version") != kVersion)
-      throw InputError(fmt::format("version is not known; this program reads version {}", kVersion));
+    if (file.text("format") != kLightFormat) throw InputError(fmt::format("format is not \"{}\"", kLightFormat));
+    if (!file.get("version").is_number_integer() || file.get("version") != kLightVersion)
+      throw InputError(fmt::format("version is not known; this program reads version {}", kLightVersion));
     texture.margin = file.number("margin");
     texture.aspect = file.number("aspect");
     texture.lodScale = file.number("lod_scale");
@@ -94,7 +94,7 @@ LightTextureFile readLightTexture(const std::string& path) {
   if (isDds(bytes)) {
     texture.levels = parseDdsMips(bytes, path);
     const std::string beside = sidecarPath(path);
-    readMetadata(readFile(beside, kMaxSidecar), beside, bytes, true, texture);
+    readMetadata(readFile(beside, kMaxLightSidecar), beside, bytes, true, texture);
   } else if (isKtx2(bytes)) {
     Ktx2Mips file = parseKtx2Mips(bytes, path);
     texture.levels = std::move(file.levels);

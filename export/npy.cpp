@@ -11,7 +11,7 @@
 namespace ltcfit {
 namespace {
 
-constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 // Numbers in one array: well above a 64^4 table of 9.
 constexpr std::size_t kMaxNumbers = std::size_t{1} << 29;
 
@@ -59,9 +59,9 @@ std::string arrayToNpy(const FloatArray& array, Precision precision) {
                                    precision == Precision::kHalf ? "<f2" : "<f4",
                                    fmt::join(array.shape, ", "), array.shape.size() == 1 ? "," : "");
   // the data start at a multiple of 64
-  header.append(63 - (kMagic.size() + 4 + header.size()) % 64, ' ');
+  header.append(63 - (kNpyMagic.size() + 4 + header.size()) % 64, ' ');
   header += '\n';
-  std::string out(kMagic);
+  std::string out(kNpyMagic);
   out += '\x01';
   out += '\0';
   append(out, static_cast<std::uint16_t>(header.size()));
@@ -71,7 +71,7 @@ std::string arrayToNpy(const FloatArray& array, Precision precision) {
 }
 
 bool isNpy(std::string_view bytes) {
-  return bytes.starts_with(kMagic);
+  return bytes.starts_with(kNpyMagic);
 }
 
 FloatArray parseNpy(std::string_view bytes, const std::string& name) {

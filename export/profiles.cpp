@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 
+#include "base/angles.h"
 #include "export/anisotropic_c_header.h"
 #include "export/engine_source.h"
 #include "export/js_module.h"
@@ -21,7 +21,6 @@
 namespace ltcfit {
 namespace {
 
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr ProfileAxes k2017{};
 constexpr ProfileAxes k2016{true, AxisMap::kLinear, 64, 64};
 constexpr ProfileAxes k2016Small{true, AxisMap::kLinear, 32, 32};

@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <stdexcept>
 
+#include "base/angles.h"
 #include "export/atomic_file.h"
 #include "export/texture_files.h"
 
 namespace ltcfit {
 namespace {
 
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 // What the authors' fitting codes clamp to.
 constexpr double kFloor2017 = 1e-5;
 constexpr double kTheta2017 = 1.57;

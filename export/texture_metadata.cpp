@@ -12,8 +12,8 @@
 namespace ltcfit {
 namespace {
 
-constexpr const char* kFormat = "ltc-texture";
-constexpr int kVersion = 1;
+constexpr const char* kTextureFormat = "ltc-texture";
+constexpr int kTextureVersion = 1;
 // A table has 11 channels at most.
 constexpr std::size_t kMaxTextures = 16;
 constexpr std::string_view kLineStart = "ltcfit-metadata:";
@@ -39,9 +39,9 @@ Json coordinates(const TableInfo& info) {
 
 PackedTable read(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kFormat) throw InputError("format is not \"" + std::string(kFormat) + "\"");
-  if (!file.get("version").is_number_integer() || file.get("version") != kVersion)
-    throw InputError(fmt::format("version is not known; this program reads version {}", kVersion));
+  if (file.text("format") != kTextureFormat) throw InputError("format is not \"" + std::string(kTextureFormat) + "\"");
+  if (!file.get("version").is_number_integer() || file.get("version") != kTextureVersion)
+    throw InputError(fmt::format("version is not known; this program reads version {}", kTextureVersion));
   PackedTable packed;
   packed.info.brdf = file.text("brdf");
   if (packed.info.brdf != "ggx") throw InputError("brdf '" + packed.info.brdf + "' is not known (ggx)");
@@ -86,7 +86,7 @@ PackedTable read(const Json& json) {
 
 Json metadataJson(const PackedTable& packed, const std::string& container) {
   const TableInfo& info = packed.info;
-  Json json{{"format", kFormat}, {"version", kVersion}, {"brdf", info.brdf}};
+  Json json{{"format", kTextureFormat}, {"version", kTextureVersion}, {"brdf", info.brdf}};
   json["brdf_definition"] =
       "GGX, height-correlated Smith masking-shadowing, F = 1, times cos(theta_light); alpha = roughness^2";
   for (const Axis& axis : info.axes) json["axes"].push_back(axisToJson(axis));
@@ -223,11 +223,11 @@ std::vector<std::string> describeTextures(const PackedTable& packed) {
 }
 
 bool isTextureMetadata(std::string_view text) {
-  if (text.find(kFormat) == std::string_view::npos) return false;
+  if (text.find(kTextureFormat) == std::string_view::npos) return false;
   bool is = false;
   try {
     readJson(text, "", [&](const Json& json) {
-      is = json.is_object() && json.contains("format") && json["format"] == kFormat;
+      is = json.is_object() && json.contains("format") && json["format"] == kTextureFormat;
     });
   } catch (const InputError&) {
     is = true;  // damaged, which the reader will say

@@ -28,7 +28,7 @@ constexpr double kAimTolerance = 1e-9;
 // Few lights can prefer a minimum that all lights do not: less of a gain than this is none.
 constexpr double kAimGain = 0.1;
 // A descent that ends so much above the other one has not arrived.
-constexpr double kArrived = 1.01;
+constexpr double kArrivedCost = 1.01;
 // See makeLightProblem. What lights see at all has a curvature some hundred times larger.
 constexpr double kPriorShare = 0.1;
 
@@ -207,7 +207,7 @@ LightFit fitLights(const LightTarget& given, const Matrix3d& start, const LightF
   if (const Matrix3d other = scaled(start); other != target.momentStart) {
     const LightFit fit = solveLightProblem(aiming, other, toTheEnd);
     evaluations += fit.evaluations;
-    restarted = !(fit.cost <= kArrived * aimed.cost);
+    restarted = !(fit.cost <= kArrivedCost * aimed.cost);
     if (fit.cost < (1.0 - kAimGain) * aimed.cost) aimed = fit;
   }
 

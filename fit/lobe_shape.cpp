@@ -16,7 +16,7 @@ constexpr int kSamples = 256;
 // t / sqrt(1 + t^2) = 1/2. A narrow lobe shows the slopes; for a wide one the start is somewhat too narrow.
 constexpr double kCosineMedian = 0.57735026918962576;
 // A width that no lobe of interest has: keeps logarithms and ratios finite.
-constexpr double kSmallest = 1e-12;
+constexpr double kSmallestWidth = 1e-12;
 
 struct Weighted {
   double value;
@@ -38,7 +38,7 @@ double weightedMedian(std::vector<Weighted>& v) {
 double medianDeviation(std::vector<Weighted> v) {
   const double centre = weightedMedian(v);
   for (Weighted& x : v) x.value = std::abs(x.value - centre);
-  return std::max(weightedMedian(v), kSmallest);
+  return std::max(weightedMedian(v), kSmallestWidth);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 namespace {
 
 // Enough samples and steps for a start; the fit does the rest.
-constexpr std::size_t kMostSamples = 512;
+constexpr std::size_t kMostStartSamples = 512;
 constexpr int kRounds = 2;
 constexpr int kStepsPerRound = 8;
 // Directions further than this from the frame's axis have slopes too long to tell anything.
@@ -70,7 +70,7 @@ SlopeShape fitSlopes(const std::vector<Vector2d>& slopes, const std::vector<doub
 
 Matrix3d momentStart(const LobeSamples& samples) {
   const std::size_t n = samples.directions.size();
-  const std::size_t stride = std::max<std::size_t>(1, n / kMostSamples);
+  const std::size_t stride = std::max<std::size_t>(1, n / kMostStartSamples);
   Vector3d axis = samples.mean();
   Matrix3d m = Matrix3d::Identity();
   for (int round = 0; round < kRounds; ++round) {

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
+
+#include "base/angles.h"
 
 namespace ltcfit {
 namespace {
-
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 bool isAngle(std::string_view axis) {
   return axis == "theta" || axis == "phi";

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kSmallest = 0.02;
+constexpr double kSmallestLight = 0.02;
 constexpr double kLargest = 1.5;
 // Sides are s a and s / a with log a uniform up to this.
 constexpr double kLogAspect = 0.7;
@@ -87,7 +87,7 @@ class Draws {
       constexpr std::array<std::uint64_t, 5> kBases{2, 3, 5, 7, 11};
       return std::fmod(radicalInverse(i, kBases[k]) + shift_[k], 1.0);
     };
-    return {directions_(i), kSmallest * std::pow(kLargest / kSmallest, uniform(0)),
+    return {directions_(i), kSmallestLight * std::pow(kLargest / kSmallestLight, uniform(0)),
             std::exp(kLogAspect * (2.0 * uniform(1) - 1.0)), 2.0 * std::numbers::pi * uniform(2),
             Vector2d(uniform(3), uniform(4))};
   }
@@ -209,7 +209,7 @@ PolygonLights makePolygonLights(const ContourIntegrator& truth, double albedo, c
     // small enough to stay below the horizon: the half diagonal times the slope towards it is under |z|
     const double size = std::min(d.size, 0.5 * up.z());
     out.lights.push_back({facingRectangle({up.x(), up.y(), -up.z()}, Vector2d::Zero(), {size, size}, d.angle),
-                          0.0, std::pow(std::max(size, kSmallest), -options.sizeExponent)});
+                          0.0, std::pow(std::max(size, kSmallestLight), -options.sizeExponent)});
   }
   double squares = 0.0;
   for (const IntegratedLight& l : out.lights) squares += l.weight * l.weight;

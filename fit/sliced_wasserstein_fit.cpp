@@ -26,7 +26,7 @@ constexpr double kRoundGain = 1e-3;
 // Two minima of few samples that differ by less are alike: that of the usual start is kept.
 constexpr double kStartGain = 0.1;
 // A descent that ends so much above the usual start's has not arrived.
-constexpr double kArrived = 1.01;
+constexpr double kArrivedLoss = 1.01;
 // The change of the loss that a step of 1 in the parameters makes is of the order of the lobe's width times
 // this; BFGS then starts with the right step lengths. 0.05 .. 0.2 take the same number of evaluations to 5 %.
 constexpr double kCurvatureFactor = 0.1;
@@ -257,7 +257,7 @@ SlicedWassersteinFit fitSlicedWasserstein(const SlicedWassersteinTarget& target,
     const Matrix3d found = m;
     const Termination termination = fit.termination;
     const double usual = descendFrom(objective, target.start);
-    fit.restarted = !(own <= kArrived * usual);
+    fit.restarted = !(own <= kArrivedLoss * usual);
     if (own < (1.0 - kStartGain) * usual) {
       m = found;
       fit.termination = termination;

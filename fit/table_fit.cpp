@@ -24,7 +24,7 @@ Matrix3d rounded(const Matrix3d& m) {
   return unitThirdColumn(m).cast<float>().cast<double>();
 }
 
-bool isUsable(const Matrix3d& m) {
+bool hasInverse(const Matrix3d& m) {
   return m.allFinite() && m.determinant() != 0.0;
 }
 
@@ -53,7 +53,7 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions
   r.evaluations = fit.evaluations;
   r.termination = fit.termination;
   r.integralError = fit.integralError;
-  r.fitted = isUsable(fit.m);
+  r.fitted = hasInverse(fit.m);
   if (!r.fitted) return r;
   const Matrix3d m = canonical(fit.m);
   r.loss = judge(m, nullptr);
@@ -78,7 +78,7 @@ NodeFit fitNode(const TablePlan& plan, std::size_t node, const LobeFitOptions& o
   NodeFit out;
   out.norm = target.moments().albedo;
   out.fresnel = target.moments().fresnel;
-  if (!isUsable(fit.m)) return out;
+  if (!hasInverse(fit.m)) return out;
   out.m = unitThirdColumn(nodeMatrix(source, align(canonical(fit.m)).m));
   out.usable = out.m.allFinite() && out.m.determinant() > 0.0;
   return out;

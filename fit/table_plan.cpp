@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/angles.h"
+
 namespace ltcfit {
 namespace {
 
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr std::size_t kSmallestAxis = 2;
 constexpr std::size_t kLargestIsotropicAxis = 1024;
 constexpr std::size_t kLargestAnisotropicAxis = 64;

@@ -3,9 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "base/angles.h"
 
 namespace ltcfit {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 // in the place of v, 80 coefficients leave less than half of the error.
 constexpr double kLayer = 2.0;
 
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr std::size_t kCheckedNodes = 65;
 constexpr double kSmallestWidth = 0.01;
 

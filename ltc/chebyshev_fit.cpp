@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/angles.h"
+
 namespace ltcfit {
 namespace {
 
@@ -19,7 +21,6 @@ using Eigen::VectorXd;
 constexpr std::size_t kTerms = kChebyshevRows * kChebyshevColumns;  // of one function
 constexpr auto kUnknowns = static_cast<Eigen::Index>(kChebyshevFunctions * kTerms);
 constexpr std::size_t kShapeFunctions = 4;
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 // Below it the fits of neighbouring nodes at grazing view scatter by more than the form's error (by 2 in
 // width at 90 degrees), and a difference from one of them says nothing.
@@ -39,15 +40,15 @@ constexpr double kEndSlack = 0.01;
 constexpr std::size_t kLookAhead = 3;
 
 // Directions of the cosine, equally weighted: rings of equal mass, symmetric in x and y.
-constexpr int kRings = 12;
+constexpr int kLobeRings = 12;
 constexpr int kAzimuths = 16;
-constexpr int kDirections = kRings * kAzimuths;
-using Directions = Eigen::Matrix<double, 3, kDirections>;
+constexpr int kLobeDirections = kLobeRings * kAzimuths;
+using Directions = Eigen::Matrix<double, 3, kLobeDirections>;
 
 Directions cosineDirections() {
   Directions x;
-  for (int i = 0; i < kRings; ++i) {
-    const double r2 = (i + 0.5) / kRings;
+  for (int i = 0; i < kLobeRings; ++i) {
+    const double r2 = (i + 0.5) / kLobeRings;
     for (int j = 0; j < kAzimuths; ++j) {
       const double phi = 2.0 * std::numbers::pi * (j + 0.5) / kAzimuths;
       x.col(i * kAzimuths + j) << std::sqrt(r2) * std::cos(phi), std::sqrt(r2) * std::sin(phi),
@@ -115,7 +116,7 @@ Eigen::Vector4d shapeOf(const Matrix3d& m, double alpha, double theta) {
 // d^T G d is the mean squared distance of directions over the squared spread for small d.
 Matrix4d metricOf(const Node& node) {
   constexpr double kStep = 1e-4;
-  Eigen::Matrix<double, 3 * kDirections, 4> jacobian;
+  Eigen::Matrix<double, 3 * kLobeDirections, 4> jacobian;
   for (int k = 0; k < 4; ++k) {
     Eigen::Vector4d low = node.shape;
     Eigen::Vector4d high = node.shape;
@@ -127,7 +128,7 @@ Matrix4d metricOf(const Node& node) {
     jacobian.col(k) = change.reshaped();
   }
   const double spread = spreadOf(directionsOf(node.m));
-  return jacobian.transpose() * jacobian / (kDirections * spread * spread);
+  return jacobian.transpose() * jacobian / (kLobeDirections * spread * spread);
 }
 
 // Half the distance between the neighbours of each node in the coordinate that is uniform for an eye.

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "base/angles.h"
 
 namespace ltcfit {
 
 CanonicalLobe canonicalLobe(const LobeParameters& p) {
-  constexpr double kPi = std::numbers::pi;
   CanonicalLobe out{p, Eigen::Matrix3d::Identity()};
   double phi = std::fmod(p.phi, 2.0 * kPi);
   if (phi < 0.0) phi += 2.0 * kPi;

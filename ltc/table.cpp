@@ -3,9 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "base/angles.h"
 #include "ltc/symmetry.h"
 
 namespace ltcfit {
@@ -20,7 +20,6 @@ struct AxisRange {
   double low;
   double high;
 };
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr std::array<AxisRange, 2> kIsotropicAxes{{{"theta", 0.0, kHalfPi}, {"alpha", 0.0, 1.0}}};
 constexpr std::array<AxisRange, 4> kAnisotropicAxes{
     {{"alpha", 0.0, 1.0}, {"lambda", 0.0, 1.0}, {"theta", 0.0, kHalfPi}, {"phi", 0.0, kHalfPi}}};

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/angles.h"
 #include "export/atomic_file.h"
 #include "export/packing.h"
 #include "export/read_table.h"
@@ -16,8 +17,6 @@
 
 namespace ltcfit {
 namespace {
-
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 bool has(const Table& table, std::string_view channel) {
   const std::vector<std::string>& channels = table.info().channels;

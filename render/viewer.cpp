@@ -7,15 +7,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace ltcfit {
 namespace {
 
 constexpr double kMinAlpha = 1e-4;  // the floor of the tables
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kTurnStep = 5.0 * kDegree;
-constexpr double kMaxPitch = 89.0 * kDegree;
+constexpr double kTurnStep = 5.0 * kRadiansPerDegree;
+constexpr double kMaxPitch = 89.0 * kRadiansPerDegree;
 
 // A step is a quarter octave of alpha, and of a light's size.
 double octaves(int steps) {
@@ -166,7 +166,7 @@ std::string Viewer::title() const {
   const std::string alpha = isotropic_ ? fmt::format("{:.4f}", m.alpha.x())
                                        : fmt::format("{:.4f} x {:.4f}", m.alpha.x(), m.alpha.y());
   return fmt::format("{}: alpha {}, tangents {:.0f} degrees, lights {} x {:.2f}", scenes_[shown_].name, alpha,
-                     m.rotation / kDegree, nameOf(shape_), octaves(size_));
+                     m.rotation / kRadiansPerDegree, nameOf(shape_), octaves(size_));
 }
 
 }  // namespace ltcfit

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <set>
 
+#include "base/angles.h"
+
 namespace ltcfit {
 namespace {
-
-constexpr double kDegrees = std::numbers::pi / 180.0;
 
 // A place in the table: values of the axes, isotropic {theta, alpha}, anisotropic {alpha, lambda, theta,
 // phi}.
@@ -20,9 +19,9 @@ struct Place {
   std::array<double, 4> anisotropic;
 };
 constexpr std::array<Place, 3> kPlaces{{
-    {"sharp, grazing view", {80.0 * kDegrees, 0.05}, {0.3, 0.15, 80.0 * kDegrees, 45.0 * kDegrees}},
+    {"sharp, grazing view", {80.0 * kRadiansPerDegree, 0.05}, {0.3, 0.15, 80.0 * kRadiansPerDegree, 45.0 * kRadiansPerDegree}},
     {"rough, normal view", {0.0, 1.0}, {1.0, 1.0, 0.0, 0.0}},
-    {"medium", {60.0 * kDegrees, 0.25}, {0.6, 0.4, 50.0 * kDegrees, 45.0 * kDegrees}},
+    {"medium", {60.0 * kRadiansPerDegree, 0.25}, {0.6, 0.4, 50.0 * kRadiansPerDegree, 45.0 * kRadiansPerDegree}},
 }};
 
 std::size_t nearestNode(const Table& table, const Place& place) {

@@ -18,7 +18,6 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view kBrdf = "ggx";
 // What measuring a fit takes next to fitting it, for the progress alone.
 constexpr double kSecondsAMeasurement = 0.01;
@@ -55,7 +54,7 @@ ParetoRun fitAndMeasure(const FitSetting& setting, const LobeParameters& paramet
   }
   run.cpuSeconds = threadSeconds() - before;
   run.converged = fit.termination == Termination::kConverged;
-  run.errors.fill(kInfinity);
+  run.errors.fill(std::numeric_limits<double>::infinity());
   Matrix3d m = fit.m / fit.m.col(2).norm();
   if (!m.allFinite() || m.determinant() == 0.0 || !m.inverse().allFinite()) return run;
   if (m.determinant() < 0.0) m.col(1) *= -1.0;  // the same lobe

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "base/angles.h"
 
 namespace ltcfit {
 
@@ -35,7 +36,6 @@ std::vector<LobeParameters> paretoEntries(TableKind kind, std::size_t count) {
     const double root = low + u * (1.0 - low);
     return root * root;
   };
-  constexpr double kHalfPi = 0.5 * std::numbers::pi;
   std::vector<LobeParameters> entries;
   for (std::size_t i = 0; i < count; ++i) {
     const double alpha = squareBetween(iso ? 0.05 : 0.1, coordinates[0][i]);

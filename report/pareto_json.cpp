@@ -1,8 +1,8 @@
 #include "report/pareto_json.h"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "base/angles.h"
 #include "export/figure.h"
 #include "report/pareto_text.h"
 
@@ -11,7 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json settingToJson(const FitSetting& setting, const SettingSummary& summary, const Json& defaultOf) {
   Json effort = Json::object();
@@ -61,8 +60,8 @@ Json paretoToJson(const ParetoOptions& options, const ParetoResult& result, cons
   for (const LobeParameters& p : result.entries) {
     out["entries"].push_back({{"alpha_x", figure(p.alphaX)},
                               {"alpha_y", figure(p.alphaY)},
-                              {"theta_degrees", figure(kDegrees * p.theta)},
-                              {"phi_degrees", figure(kDegrees * p.phi)}});
+                              {"theta_degrees", figure(kDegreesPerRadian * p.theta)},
+                              {"phi_degrees", figure(kDegreesPerRadian * p.phi)}});
   }
   out["metrics"] = Json::array();
   for (const ParetoMetric& m : paretoMetrics())

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "base/angles.h"
 #include "ggx/random.h"
 #include "ltc/resample.h"
 
 namespace ltcfit {
 namespace {
-
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 struct Interval {
   double low, high;

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numbers>
 #include <variant>
 
+#include "base/angles.h"
 #include "export/figure.h"
 
 namespace ltcfit {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct MetricText {
   Metric metric;
@@ -55,7 +53,7 @@ Json summaryJson(const Summary& s) {
 Json axisJson(const Axis& axis) {
   const bool angle = axis.unit == "rad";
   Json values = Json::array();
-  for (const double v : axis.values) values.push_back(figure(angle ? v * kDegrees : v));
+  for (const double v : axis.values) values.push_back(figure(angle ? v * kDegreesPerRadian : v));
   return {{"name", axis.name}, {"unit", angle ? "degrees" : ""}, {"values", values}};
 }
 
@@ -171,9 +169,9 @@ Json smoothnessJson(const std::vector<ReportTable>& tables,
 }
 
 std::string place(const LobeParameters& p, bool isotropic) {
-  if (isotropic) return fmt::format("alpha {:.3g}, theta {:.3g}°", p.alphaX, p.theta * kDegrees);
+  if (isotropic) return fmt::format("alpha {:.3g}, theta {:.3g}°", p.alphaX, p.theta * kDegreesPerRadian);
   return fmt::format("alpha_x {:.3g}, alpha_y {:.3g}, theta {:.3g}°, phi {:.3g}°", p.alphaX, p.alphaY,
-                     p.theta * kDegrees, p.phi * kDegrees);
+                     p.theta * kDegreesPerRadian, p.phi * kDegreesPerRadian);
 }
 
 class Pictures {
@@ -220,9 +218,9 @@ Json lobeJson(const std::vector<ReportTable>& tables, const ReportLobe& lobe, co
           {"parameters",
            {{"alpha_x", figure(p.alphaX)},
             {"alpha_y", figure(p.alphaY)},
-            {"theta_degrees", figure(p.theta * kDegrees)},
-            {"phi_degrees", figure(p.phi * kDegrees)}}},
-          {"half_width_degrees", figure(lobe.pictures.window.halfWidth * kDegrees)},
+            {"theta_degrees", figure(p.theta * kDegreesPerRadian)},
+            {"phi_degrees", figure(p.phi * kDegreesPerRadian)}}},
+          {"half_width_degrees", figure(lobe.pictures.window.halfWidth * kDegreesPerRadian)},
           {"peak", figure(lobe.pictures.peak)},
           {"difference", figure(lobe.pictures.difference)},
           {"images", list},

@@ -15,8 +15,8 @@
 namespace ltcfit {
 namespace {
 
-constexpr int kDirections = 256;
-constexpr int kProjections = 16;
+constexpr int kStepDirections = 256;
+constexpr int kStepProjections = 16;
 // The points are those of one sequence for every lobe, so that neighbours share their noise.
 constexpr std::uint64_t kSeed = 1;
 
@@ -29,16 +29,16 @@ struct TrueLobe {
 TrueLobe trueLobe(const Table& table, std::size_t flat) {
   const std::unique_ptr<Lobe> lobe = makeTargetLobe(table.info().brdf, table.parameters(table.node(flat)));
   const R2Sequence points(mixSeed(kSeed, 31));
-  TrueLobe out{Eigen::Matrix3Xd(3, kDirections), std::vector<double>(kDirections), 0.0};
+  TrueLobe out{Eigen::Matrix3Xd(3, kStepDirections), std::vector<double>(kStepDirections), 0.0};
   double total = 0.0;
-  for (int i = 0; i < kDirections; ++i) {
+  for (int i = 0; i < kStepDirections; ++i) {
     const LobeSample s = lobe->sample(points(static_cast<std::uint64_t>(i)));
     out.directions.col(i) = s.wi;
     out.weights[static_cast<std::size_t>(i)] = s.weight;
     total += s.weight;
   }
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (int i = 0; i < kDirections; ++i) {
+  for (int i = 0; i < kStepDirections; ++i) {
     double& weight = out.weights[static_cast<std::size_t>(i)];
     weight /= total;
     mean += weight * out.directions.col(i);
@@ -46,7 +46,7 @@ TrueLobe trueLobe(const Table& table, std::size_t flat) {
   // acos |mean| without the cancellation of 1 - |mean|: that is half the mean squared chord to its direction
   mean.normalize();
   double chord = 0.0;
-  for (int i = 0; i < kDirections; ++i)
+  for (int i = 0; i < kStepDirections; ++i)
     chord += out.weights[static_cast<std::size_t>(i)] * (out.directions.col(i) - mean).squaredNorm();
   out.spread = 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(chord)));
   return out;
@@ -80,8 +80,8 @@ class Distances {
   }
 
  private:
-  Eigen::Matrix3Xd cosine_ = evenCosineDirections(kDirections);
-  std::vector<Eigen::Vector3d> projections_ = evenProjections(kProjections);
+  Eigen::Matrix3Xd cosine_ = evenCosineDirections(kStepDirections);
+  std::vector<Eigen::Vector3d> projections_ = evenProjections(kStepProjections);
 };
 
 }  // namespace

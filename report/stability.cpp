@@ -25,7 +25,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr const char* kBrdf = "ggx";
+constexpr const char* kStabilityBrdf = "ggx";
 // Samples that no fit sees, for SW1: the same for all runs on a lobe.
 constexpr int kUnseenLobe = 16384;
 constexpr int kUnseenCosine = 8192;
@@ -54,7 +54,7 @@ LobeParameters neighbourOf(LobeParameters p) {
 // Everything about a lobe that judges fits of it.
 struct Judge {
   Judge(const LobeParameters& p, MatrixFamily family)
-      : lobe(makeTargetLobe(kBrdf, p)),
+      : lobe(makeTargetLobe(kStabilityBrdf, p)),
         metrics(*lobe, MetricOptions{.samples = kTvSamples, .directions = 1, .quads = 1, .lights = 1}),
         samples(weightedSamples(*lobe, kUnseenLobe, mixSeed(1, 70))),
         moments(projectOnFamily(momentStart(samples), family)),
@@ -176,8 +176,8 @@ std::vector<StabilityRow> runLobe(const LobeParameters& p, std::size_t index, co
     const int seeds = isDefault || options.full ? options.seeds : 1;
     for (int seed = 1; seed <= seeds; ++seed) {
       fit.setSeed(static_cast<std::uint64_t>(seed));
-      LobeFitTarget target(job, kBrdf, fit);
-      LobeFitTarget nextTarget({next, familyOf(next)}, kBrdf, fit);
+      LobeFitTarget target(job, kStabilityBrdf, fit);
+      LobeFitTarget nextTarget({next, familyOf(next)}, kStabilityBrdf, fit);
       const Matrix3d neighbour = fitLobe(nextTarget, nextTarget.momentStart(), fit).m;
       for (const Start start : kStarts) {
         const Matrix3d from = startMatrix(start, job, target.momentStart(), neighbour);
@@ -189,7 +189,7 @@ std::vector<StabilityRow> runLobe(const LobeParameters& p, std::size_t index, co
     row.sw1 = usual.run.sw1;
     if (std::isfinite(row.sw1)) {
       fit.setSeed(1);
-      const LobeFitTarget target(job, kBrdf, fit);
+      const LobeFitTarget target(job, kStabilityBrdf, fit);
       const Matrix3d m = usual.m;
       row.conditionM = conditionOf(m);
       row.tv = judge.tv(m);

@@ -17,18 +17,18 @@ using Eigen::Matrix3d;
 
 namespace {
 
-constexpr int kDirections = 64;
+constexpr int kShiftDirections = 64;
 
 }  // namespace
 
 double lobeShift(const Matrix3d& a, const Matrix3d& b) {
   double sum = 0.0;
-  for (int i = 0; i < kDirections; ++i) {
+  for (int i = 0; i < kShiftDirections; ++i) {
     const Eigen::Vector3d x =
-        sampleCosine({(i + 0.5) / kDirections, std::fmod(i * (1.0 / std::numbers::phi), 1.0)});
+        sampleCosine({(i + 0.5) / kShiftDirections, std::fmod(i * (1.0 / std::numbers::phi), 1.0)});
     sum += ((a * x).normalized() - (b * x).normalized()).norm();
   }
-  return sum / kDirections;
+  return sum / kShiftDirections;
 }
 
 double float32Shift(const Matrix3d& m) {

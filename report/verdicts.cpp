@@ -94,7 +94,7 @@ Verdict halves(const Table& table) {
   return v;
 }
 
-std::vector<double> valuesOf(const Score& score, Metric metric) {
+std::vector<double> allValuesOf(const Score& score, Metric metric) {
   std::vector<double> out;
   out.reserve(score.all.size());
   for (const PointScore& point : score.all) out.push_back(point.metrics.get(metric));
@@ -104,7 +104,7 @@ std::vector<double> valuesOf(const Score& score, Metric metric) {
 Verdict comparison(const Score& ours, const Score& theirs, Metric metric, const std::string& name) {
   Verdict v{fmt::format("Mean {} off-grid over that of {}", metricName(metric), name), std::nan(""), 1.0, {}};
   if (ours.summary[index(metric)].nonFinite > 0) return v;
-  const MeanRatio r = ratioOfMeans(valuesOf(ours, metric), valuesOf(theirs, metric));
+  const MeanRatio r = ratioOfMeans(allValuesOf(ours, metric), allValuesOf(theirs, metric));
   v.value = r.ratio;
   if (std::isnan(r.ratio)) return v;
   v.limit = 1.0 + kStandardErrors * r.standardError;

@@ -16,7 +16,6 @@
 namespace ltcfit {
 namespace {
 
-using Json = nlohmann::json;
 
 constexpr std::string_view kBufferName = "buffer-";
 constexpr std::string_view kEmptyBuffer = "data:application/octet-stream;base64,AA==";
@@ -76,21 +75,21 @@ void refuseOtherFiles(std::string_view bytes) {
                                kind.empty() ? std::string() : fmt::format("a picture ({}), ", kind)));
 }
 
-Json& arrayOf(Json& json, const char* key) {
-  Json& value = json[key];
-  if (value.is_null()) value = Json::array();
+GltfJson& arrayOf(GltfJson& json, const char* key) {
+  GltfJson& value = json[key];
+  if (value.is_null()) value = GltfJson::array();
   if (!value.is_array()) throw InputError(fmt::format("'{}' is not an array", key));
   return value;
 }
 
-std::string textOf(const Json& object, const char* key) {
+std::string textOf(const GltfJson& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) return {};
   if (!found->is_string()) throw InputError(fmt::format("'{}' is not a string", key));
   return found->get<std::string>();
 }
 
-bool hasExtension(const Json& object, const char* name) {
+bool hasExtension(const GltfJson& object, const char* name) {
   const auto extensions = object.find("extensions");
   return extensions != object.end() && extensions->is_object() && extensions->contains(name);
 }
@@ -99,11 +98,11 @@ bool hasExtension(const Json& object, const char* name) {
 using Buffers = std::map<std::string, std::string>;
 
 // Takes the buffers that are not data URIs out of the JSON into `buffers`.
-void resolveBuffers(Json& json, std::string_view binary, const std::filesystem::path& folder,
+void resolveBuffers(GltfJson& json, std::string_view binary, const std::filesystem::path& folder,
                     Buffers& buffers) {
   std::size_t total = 0;
   std::size_t i = 0;
-  for (Json& buffer : arrayOf(json, "buffers")) {
+  for (GltfJson& buffer : arrayOf(json, "buffers")) {
     const std::string name = fmt::format("{}{}", kBufferName, i);
     if (!buffer.is_object()) throw InputError(name + " is not an object");
     const auto lengthField = buffer.find("byteLength");
@@ -139,21 +138,21 @@ void resolveBuffers(Json& json, std::string_view binary, const std::filesystem::
 }
 
 // tinygltf insists on index data that a Draco primitive need not have, and drops one without attributes.
-void withoutDraco(Json& json) {
-  for (Json& mesh : arrayOf(json, "meshes")) {
+void withoutDraco(GltfJson& json) {
+  for (GltfJson& mesh : arrayOf(json, "meshes")) {
     if (!mesh.is_object()) continue;
-    for (Json& primitive : arrayOf(mesh, "primitives")) {
+    for (GltfJson& primitive : arrayOf(mesh, "primitives")) {
       if (!primitive.is_object()) throw InputError("a primitive that is not an object");
       if (!hasExtension(primitive, "KHR_draco_mesh_compression")) continue;
       primitive.erase("indices");
-      primitive["attributes"] = Json::object();
+      primitive["attributes"] = GltfJson::object();
     }
   }
 }
 
-std::vector<GltfImage> imagesOf(Json& json) {
+std::vector<GltfImage> imagesOf(GltfJson& json) {
   std::vector<GltfImage> images;
-  for (const Json& image : arrayOf(json, "images")) {
+  for (const GltfJson& image : arrayOf(json, "images")) {
     if (!image.is_object()) throw InputError(fmt::format("image {} is not an object", images.size()));
     GltfImage out;
     out.uri = textOf(image, "uri");
@@ -209,13 +208,13 @@ bool isMeshoptCompressed(const tinygltf::BufferView& view) {
 GltfFile parseGltf(std::string_view bytes, const std::filesystem::path& folder) {
   const Chunks chunks = isGlb(bytes) ? chunksOfGlb(bytes) : Chunks{bytes, {}};
   if (!isGlb(bytes)) refuseOtherFiles(bytes);
-  Json all = parseGltfJson(chunks.json);
+  GltfJson all = parseGltfJson(chunks.json);
   if (!all.is_object() || !all.contains("asset") || !all["asset"].is_object())
     throw InputError("neither glTF (no 'asset') nor a scene description (no \"format\": \"ltc-scene\")");
   const std::string version = textOf(all["asset"], "version");
   if (!version.starts_with("2.")) throw InputError(fmt::format("glTF version '{}'; 2.0 is read", version));
   // the rest is not looked at, and tinygltf need not either
-  Json json{{"asset", {{"version", "2.0"}}}};
+  GltfJson json{{"asset", {{"version", "2.0"}}}};
   for (const char* key : {"scene", "scenes", "nodes", "meshes", "materials", "textures", "samplers",
                           "accessors", "bufferViews", "buffers", "extensionsUsed", "extensionsRequired"})
     if (all.contains(key)) json[key] = std::move(all[key]);

@@ -13,14 +13,13 @@
 namespace ltcfit {
 namespace {
 
-using Json = nlohmann::json;
 
 // No file of Khronos reaches 16.
 constexpr int kMaxDepth = 64;
 
 // Looks at the JSON before it is kept. (The parser's own callbacks search an object or array anew after each
 // of its members: 200000 of them take minutes.)
-class Limits : public nlohmann::json_sax<Json> {
+class Limits : public nlohmann::json_sax<GltfJson> {
  public:
   bool null() override { return scalar(); }
   bool boolean(bool) override { return scalar(); }
@@ -73,13 +72,13 @@ class Limits : public nlohmann::json_sax<Json> {
 
 }  // namespace
 
-Json parseGltfJson(std::string_view text) {
+GltfJson parseGltfJson(std::string_view text) {
   if (text.size() > kMaxGltfJson)
     throw InputError(fmt::format("the JSON has {} bytes; up to {} are read", text.size(), kMaxGltfJson));
   // what some exporters pad the chunk of a GLB with
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   Limits limits;
-  Json::sax_parse(text, &limits);
+  GltfJson::sax_parse(text, &limits);
   return parseJsonText(text);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -12,9 +13,8 @@
 namespace ltcfit {
 namespace {
 
-using Json = nlohmann::json;
 
-const Json* find(const Json& object, const char* key) {
+const GltfJson* find(const GltfJson& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() ? nullptr : &*found;
 }
@@ -23,31 +23,31 @@ void require(bool right, const std::string& where, std::string_view key, const c
   if (!right) throw InputError(fmt::format("{}: {} is not {}", where, shortened(std::string(key)), what));
 }
 
-void checkNumber(const Json& object, const std::string& where, const char* key) {
-  if (const Json* value = find(object, key)) require(value->is_number(), where, key, "a number");
+void checkNumber(const GltfJson& object, const std::string& where, const char* key) {
+  if (const GltfJson* value = find(object, key)) require(value->is_number(), where, key, "a number");
 }
 
-void checkColor(const Json& object, const std::string& where, const char* key) {
-  const Json* value = find(object, key);
+void checkColor(const GltfJson& object, const std::string& where, const char* key) {
+  const GltfJson* value = find(object, key);
   if (value == nullptr) return;
   const bool numbers = value->is_array() &&
-                       std::all_of(value->begin(), value->end(), [](const Json& x) { return x.is_number(); });
+                       std::all_of(value->begin(), value->end(), [](const GltfJson& x) { return x.is_number(); });
   require(numbers, where, key, "a colour");
 }
 
-void checkTexture(const Json& object, const std::string& where, const char* key) {
-  const Json* info = find(object, key);
+void checkTexture(const GltfJson& object, const std::string& where, const char* key) {
+  const GltfJson* info = find(object, key);
   if (info == nullptr) return;
   require(info->is_object(), where, key, "an object");
-  const Json* index = find(*info, "index");
+  const GltfJson* index = find(*info, "index");
   require(index != nullptr && index->is_number_integer(), where, fmt::format("index of {}", key),
           "an integer");
-  if (const Json* set = find(*info, "texCoord"))
+  if (const GltfJson* set = find(*info, "texCoord"))
     require(set->is_number_integer(), where, fmt::format("texCoord of {}", key), "an integer");
 }
 
-void checkMaterial(const Json& material, const std::string& where) {
-  if (const Json* pbr = find(material, "pbrMetallicRoughness")) {
+void checkMaterial(const GltfJson& material, const std::string& where) {
+  if (const GltfJson* pbr = find(material, "pbrMetallicRoughness")) {
     require(pbr->is_object(), where, "pbrMetallicRoughness", "an object");
     checkNumber(*pbr, where, "roughnessFactor");
     checkNumber(*pbr, where, "metallicFactor");
@@ -57,9 +57,9 @@ void checkMaterial(const Json& material, const std::string& where) {
   }
   checkColor(material, where, "emissiveFactor");
   checkTexture(material, where, "emissiveTexture");
-  if (const Json* sides = find(material, "doubleSided"))
+  if (const GltfJson* sides = find(material, "doubleSided"))
     require(sides->is_boolean(), where, "doubleSided", "true or false");
-  const Json* extensions = find(material, "extensions");
+  const GltfJson* extensions = find(material, "extensions");
   if (extensions == nullptr) return;
   require(extensions->is_object(), where, "extensions", "an object");
   for (const auto& [key, value] : extensions->items())
@@ -68,11 +68,11 @@ void checkMaterial(const Json& material, const std::string& where) {
 
 }  // namespace
 
-void checkMaterialTypes(const Json& materials) {
+void checkMaterialTypes(const GltfJson& materials) {
   std::size_t i = 0;
-  for (const Json& material : materials) {
+  for (const GltfJson& material : materials) {
     if (!material.is_object()) throw InputError(fmt::format("material {} is not an object", i));
-    const Json* name = find(material, "name");
+    const GltfJson* name = find(material, "name");
     const bool named = name != nullptr && name->is_string() && !name->get_ref<const std::string&>().empty();
     checkMaterial(material, named ? fmt::format("Material '{}'", shortened(name->get<std::string>()))
                                   : fmt::format("Material {}", i));

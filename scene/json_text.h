@@ -1,7 +1,7 @@
 // JSON that people write, with messages that help them.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 namespace ltcfit {

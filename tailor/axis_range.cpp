@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.h"
 #include "fit/table_plan.h"
 
 namespace ltcfit {
 namespace {
-
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 struct Extent {
   double low = 1.0;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/angles.h"
 #include "fit/parallel_for.h"
 #include "fit/table_fit.h"
 #include "fit/table_plan.h"
@@ -14,8 +15,6 @@
 
 namespace ltcfit {
 namespace {
-
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
 
 // Of a displacement in widths: brings predictions nearest to measurements over roughness 0.01 to 0.2 and 6 to
 // 60 nodes (tests/tailor/table_designs_test.cpp, PredictionsComeNearForMirrorsToo).

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "base/angles.h"
 #include "export/atomic_file.h"
 #include "export/figure.h"
 #include "export/json_fields.h"
@@ -13,10 +13,9 @@
 namespace ltcfit {
 namespace {
 
-constexpr const char* kFormat = "ltc-plan";
-constexpr int kVersion = 1;
-constexpr std::size_t kMostLobes = 65536;
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
+constexpr const char* kPlanFormat = "ltc-plan";
+constexpr int kPlanVersion = 1;
+constexpr std::size_t kMostLobesRead = 65536;
 
 Json requestToJson(const PlanRequest& r) {
   return {{"max_error", r.maxError},     {"no_stricter_than_full", r.noStricterThanFull},
@@ -126,8 +125,8 @@ LobeDistribution readDistribution(const JsonFields& table, const std::string& wh
     throw InputError(inner + ".views: need two angles in radians, increasing, from 0 to pi/2");
   d.views = {views[0], std::min(views[1], kHalfPi)};
   const Json& lobes = fields.array("lobes");
-  if (lobes.empty() || lobes.size() > kMostLobes)
-    throw InputError(fmt::format("{}.lobes: {} lobes, need 1 to {}", inner, lobes.size(), kMostLobes));
+  if (lobes.empty() || lobes.size() > kMostLobesRead)
+    throw InputError(fmt::format("{}.lobes: {} lobes, need 1 to {}", inner, lobes.size(), kMostLobesRead));
   for (std::size_t i = 0; i < lobes.size(); ++i)
     d.lobes.push_back(readLobe(lobes[i], fmt::format("{}.lobes[{}]", inner, i), d.isotropic));
   return d;
@@ -135,12 +134,12 @@ LobeDistribution readDistribution(const JsonFields& table, const std::string& wh
 
 ScenePlan readPlan(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kFormat) throw InputError(fmt::format("format is not \"{}\"", kFormat));
+  if (file.text("format") != kPlanFormat) throw InputError(fmt::format("format is not \"{}\"", kPlanFormat));
   const Json& version = file.get("version");
-  if (!version.is_number_integer() || version != kVersion)
+  if (!version.is_number_integer() || version != kPlanVersion)
     throw InputError(fmt::format("version {} is not known; this program reads version {}",
                                  version.is_number() ? version.dump() : std::string("of another type"),
-                                 kVersion));
+                                 kPlanVersion));
   ScenePlan plan;
   plan.scene = file.text("scene");
   plan.request = readRequest(JsonFields(file.get("request"), "request"));
@@ -177,8 +176,8 @@ ScenePlan readPlan(const Json& json) {
 
 std::string planToJson(const ScenePlan& plan) {
   Json json{
-      {"format", kFormat},
-      {"version", kVersion},
+      {"format", kPlanFormat},
+      {"version", kPlanVersion},
       {"about",
        "ltcfit fit --plan reads scene, request, lights and of each table kind, max_error, max_bytes and "
        "distribution; all else says what is expected and why"},

@@ -20,7 +20,7 @@ namespace {
 // More lobes than these are merged to a grid: no table is the better for them.
 constexpr std::size_t kMostLobes = 2048;
 
-struct Extent {
+struct LobeExtent {
   double low = 0.0;
   double high = 0.0;
   bool empty = true;
@@ -35,8 +35,8 @@ struct Extent {
 // Lobes with equal coordinates on a grid of `steps` a unit of roughness, lambda, f0 and f90, as their mean;
 // ends of the ranges stay.
 std::vector<LobeUse> merged(const std::vector<LobeUse>& lobes, double steps) {
-  Extent alpha;
-  Extent lambda;
+  LobeExtent alpha;
+  LobeExtent lambda;
   for (const LobeUse& l : lobes) {
     alpha.add(l.alphaX);
     lambda.add(l.alphaX > 0.0 ? l.alphaY / l.alphaX : 1.0);
@@ -70,9 +70,9 @@ std::vector<LobeUse> merged(const std::vector<LobeUse>& lobes, double steps) {
 MaterialSummary summaryOf(const MaterialUse& material) {
   MaterialSummary s{material.name,   material.area, material.textured ? material.texels : 0, {}, {}, {},
                     material.reasons};
-  Extent roughness;
-  Extent lambda;
-  Extent f0;
+  LobeExtent roughness;
+  LobeExtent lambda;
+  LobeExtent f0;
   double mean = 0.0;
   double weight = 0.0;
   for (const LobeUse& l : material.lobes) {
