@@ -21,12 +21,17 @@ while read -r package command _; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
 done < <(cat "${lists[@]}")
 
-# apt-get's lines that tell how far it is: every fiftieth package
+# Of apt-get's lines those that tell how much it is, and one in fifty of those that tell how far it is.
 showApt() {
-  awk '/newly installed/ { total = $3 + $6 } /^Need to get/ { print "  " $0 }
-       /^Get:/ && ++fetched % 50 == 0 { print "  fetched " fetched " of " total; fflush() }
-       /^Unpacking / && ++unpacked % 50 == 0 { print "  unpacked " unpacked " of " total; fflush() }
-       /^Setting up / && ++set % 50 == 0 { print "  set up " set " of " total; fflush() }'
+  local line fetched=0 unpacked=0 ready=0
+  while IFS= read -r line; do
+    case $line in
+      *' newly installed, '* | 'Need to get '*) echo "  $line" ;;
+      Get:*) ((++fetched % 50)) || echo "  fetched $fetched" ;;
+      'Unpacking '*) ((++unpacked % 50)) || echo "  unpacked $unpacked" ;;
+      'Setting up '*) ((++ready % 50)) || echo "  set up $ready" ;;
+    esac
+  done
 }
 installMissing() {
   command -v apt-get >/dev/null || { echo "no apt-get here: install by hand what is missing" >&2; return 1; }
@@ -53,14 +58,19 @@ if ! [ build/build.ninja -nt /var/lib/dpkg/status ] || [ CMakePresets.json -nt b
   cmake --preset release >/dev/null
 fi
 
+# Of ninja's lines one in twenty, and whatever else it says.
+showNinja() {
+  local line shown=0
+  while IFS= read -r line; do
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\  ]]; then
+      ((20 * BASH_REMATCH[1] / BASH_REMATCH[2] > shown)) || continue
+      shown=$((20 * BASH_REMATCH[1] / BASH_REMATCH[2]))
+    fi
+    echo "$line"
+  done
+}
 if [ -t 1 ]; then
   cmake --build build --target "$target"
 else
-  # of ninja's lines one in twenty, and whatever else there is
-  cmake --build build --target "$target" | awk '
-    /^ninja: no work to do/ { next }
-    /^\[[0-9]+\/[0-9]+\] / { split(substr($1, 2), n, /[\/\]]/)
-      if (int(20 * n[1] / n[2]) > shown) { shown = int(20 * n[1] / n[2]); print; fflush() }
-      next }
-    { print; fflush() }'
+  cmake --build build --target "$target" | showNinja
 fi

@@ -11,7 +11,7 @@ shim() { printf '#!/bin/bash\necho "${0##*/} $*" >> "$CALLS"\n%s\n' "$2" > "$1";
 shim bin/dpkg-query 'if grep -qx "${!#}" "$INSTALLED"; then echo "install ok installed"; else exit 1; fi'
 shim bin/dpkg ''
 shim bin/id 'echo 0'
-shim bin/cmake 'case $1 in --preset) touch build/build.ninja ;; --build) printf "[1/2] one\n[2/2] two\na warning\n" ;; esac'
+shim bin/cmake 'case $1 in --preset) touch build/build.ninja ;; --build) printf "[1/100] one\n[100/100] two\na warning\n" ;; esac'
 shim bin/apt-get 'if [ "$1" = install ]; then shift 4; printf "%s\n" "$@" >> "$INSTALLED"; fi'
 # every -o is written, and `check-gl -o` is a folder
 shim project/build/ltcfit 'for argument; do if [ "${previous:-}" = -o ]; then case $argument in
@@ -33,7 +33,8 @@ called "apt-get install .* libone$"
 called "cmake --preset release"
 called "cmake --build build --target ltcfit"
 says "installing.*libone"
-says "^\[2/2\] two"
+says "^\[100/100\] two"
+! grep -q "^\[1/100\]" out.txt || fail "every line of the build is shown: $(cat out.txt)"
 says "^a warning"
 run scripts/setup.sh --tests || fail "setup.sh --tests: $(cat out.txt)"
 called "apt-get install .* libtwo$"
