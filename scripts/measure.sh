@@ -32,12 +32,12 @@ for kind in iso aniso; do
   done > out/ltc_$kind.txt
   echo "error against run time: out/pareto_$kind.json (two minutes)"
   build/ltcfit pareto --table $kind -o out/pareto_$kind.json > out/pareto_$kind.txt
-  page+=(--pareto out/pareto_$kind.json)
+  page+=(--pareto "out/pareto_$kind.json")
   echo "shading: out/shading_$kind/ (a minute)"
   status=0
   build/ltcfit check-gl out/ltc_$kind.json "${against[@]}" --cost -o out/shading_$kind > out/shading_$kind.txt || status=$?
   case $status in
-    0) page+=(--shading out/shading_$kind/shading.json) ;;
+    0) page+=(--shading "out/shading_$kind/shading.json") ;;
     1) leaveOut "shading with out/ltc_$kind.json, for the reason above" ;;
     *) exit $status ;;
   esac
