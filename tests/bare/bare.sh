@@ -3,7 +3,7 @@
 # Makes a minimal Debian 12 root in FOLDER, puts a clone of SOURCE_DIR's HEAD into it (what is not committed does not
 # count), and runs scripts/fit.sh and a few tests of scripts/test.sh there. From this machine come its apt sources as far
 # as they are Debian's, its certificates, its DNS, and npm's registry; and, for speed alone, the compiler cache and the
-# packages that apt fetched for an earlier run. The root is gone at the end, however that comes.
+# packages that apt fetched for an earlier run. The root is removed at the end, and by the next run where this one is killed.
 #   BARE_WITHOUT=PACKAGE  leaves that line out of the package lists, for which the test must fail
 #   BARE_TESTS=REGEX      the tests to run there
 set -euo pipefail
