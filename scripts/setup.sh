@@ -55,7 +55,9 @@ fi
 if ! [ build/build.ninja -nt /var/lib/dpkg/status ] || [ CMakePresets.json -nt build/build.ninja ] ||
   [ -e build/report/charts/missing.txt ]; then
   echo "configuring"
-  cmake --preset release >/dev/null
+  mkdir -p build
+  # what pkg-config does not find is named on stdout
+  cmake --preset release >build/configure.log || { tail -n 5 build/configure.log >&2; exit 1; }
 fi
 
 # Of ninja's lines one in twenty, and whatever else it says.

@@ -62,6 +62,10 @@ run scripts/setup.sh || fail "setup.sh without a network, all installed: $(cat o
 not_called "apt-get"
 shim bin/cmake 'exit 1'
 run scripts/setup.sh && fail "setup.sh hides that the build failed"
+rm project/build/build.ninja
+shim bin/cmake "echo \"--   Package 'libone' not found\"; exit 1"
+run scripts/setup.sh && fail "setup.sh hides that the configuration failed"
+says "Package 'libone' not found"
 
 # the tables and the page; then what takes minutes
 shim project/scripts/setup.sh ''
