@@ -62,7 +62,7 @@ int fitAniso(const CLI::App& command, const FitArguments& a) {
   o.thetaMax = a.thetaMax;
   o = valid(o);
   checkOutputs(a);
-  const SymmetryMode symmetry = a.symmetry == "after" ? SymmetryMode::kAfter : SymmetryMode::kDuring;
+  const SymmetryMode symmetry = symmetryOf(a);
   return fitTableCommand(a, planAnisotropicTable(o, symmetry));
 }
 
