@@ -115,7 +115,8 @@ void writeAll(int file, const std::string& path, std::string_view text) {
 Checkpoint::Checkpoint(std::string path, const std::string& fingerprint, std::size_t jobs)
     : path_(std::move(path)) {
   // without O_NONBLOCK a pipe of that name would wait for ever
-  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW, 0666);
+  if (file_ < 0 && errno == ELOOP) throw std::invalid_argument(path_ + ": a link, not a file");
   if (file_ < 0) throw std::runtime_error(path_ + ": " + std::strerror(errno));
   try {
     struct stat opened {};
