@@ -56,14 +56,13 @@ class RefinedLookUps final : public ceres::EvaluationCallback {
   void PrepareForEvaluation(bool jacobians, bool isNew) override;
 
  private:
-  LookUpSamples& samples();
   Eigen::Matrix3d storedAt(const LookUpNodes& nodes) const;
-  void evaluate(RefinedLookUp& l, bool jacobians);
+  void evaluate(RefinedLookUp& l, bool jacobians, LookUpSamples& samples);
 
   const TablePlan& plan_;
   StoredForm form_;
   int threads_;
-  std::vector<LookUpSamples> samples_;  // one for each thread
+  std::vector<LookUpSamples> samples_;  // one for each slot of a parallel loop
   std::vector<RefinedEntry> entries_;
   std::vector<RefinedLookUp> lookUps_;
 };

@@ -2,7 +2,6 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,8 +9,8 @@
 #include <exception>
 #include <stdexcept>
 
+#include "base/parallel_for.h"
 #include "fit/ceres_termination.h"
-#include "fit/parallel_for.h"
 #include "fit/refined_entry.h"
 #include "fit/refinement_points.h"
 #include "fit/refinement_problem.h"
@@ -249,11 +248,10 @@ std::vector<FreshErrors> errorsAtFreshPoints(const std::vector<const Table*>& ta
   const std::vector<RefinementPoint> points = refinementPoints(info, count, mixSeed(seed, 62), false);
   std::vector<FreshErrors> out(tables.size() + 1);
   const double each = 1.0 / static_cast<double>(count);
-  const int most = threads > 0 ? threads : omp_get_max_threads();
-  std::vector<LookUpSamples> samples(static_cast<std::size_t>(most), LookUpSamples(options));
+  std::vector<LookUpSamples> samples(static_cast<std::size_t>(threadCount(threads)), LookUpSamples(options));
   std::vector<std::vector<FreshErrors>> all(count, out);
-  parallelFor(count, most, [&](std::size_t i) {
-    LookUpSamples& own = samples[static_cast<std::size_t>(omp_get_thread_num())];
+  parallelFor(count, {.threads = threads}, [&](std::size_t i, std::size_t slot) {
+    LookUpSamples& own = samples[slot];
     const LookUpLoss loss(points[i].parameters, info.brdf, options, mixSeed(mixSeed(seed, 63), i), own);
     for (std::size_t t = 0; t < out.size(); ++t) {
       FreshErrors& e = all[i][t];
@@ -267,7 +265,6 @@ std::vector<FreshErrors> errorsAtFreshPoints(const std::vector<const Table*>& ta
       }
       e.swRel = e.mean.sw / loss.spread();
     }
-    return [] {};
   });
   for (const std::vector<FreshErrors>& point : all) {
     for (std::size_t t = 0; t < out.size(); ++t) {

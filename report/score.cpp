@@ -1,14 +1,12 @@
 #include "report/score.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <variant>
 
+#include "base/diagnostics.h"
+#include "base/parallel_for.h"
 #include "fit/entry_fit.h"
 #include "fit/sliced_wasserstein_fit.h"
 #include "fit/table_fit.h"
@@ -136,17 +134,14 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   const Table& first = *tables.at(0);
   for (const Table* table : tables) {
     if (table->isIsotropic() != first.isIsotropic()) {
-      std::fprintf(stderr, "scoreTables: an isotropic and an anisotropic table have no points in common\n");
-      std::abort();
+      abortWith("scoreTables: an isotropic and an anisotropic table have no points in common");
     }
   }
   const std::vector<Point> points =
       makePoints(first, options.set, options.count, options.minAlpha, options.metrics.seed);
   std::vector<std::vector<PointResult>> results(tables.size(), std::vector<PointResult>(points.size()));
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   std::size_t done = 0;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  parallelFor(points.size(), {.threads = options.threads}, [&](std::size_t i) {
     // Lights, directions and samples of its own for each point: their noise then averages out over the table.
     ScoreOptions own = options;
     own.metrics.seed = mixSeed(options.metrics.seed, 1000 + i);
@@ -165,11 +160,10 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
         results[t][i] = judge(table.fetch(points[i].parameters), table, target, own);
       }
     }
-    if (progress) {
-#pragma omp critical(ltcfit_score_progress)
-      progress(++done, points.size());
-    }
-  }
+    return [&] {
+      if (progress) progress(++done, points.size());
+    };
+  });
 
   std::vector<Score> scores(tables.size());
   for (std::size_t t = 0; t < tables.size(); ++t) {
