@@ -10,6 +10,7 @@
 #include "app/axes_argument.h"
 #include "app/commands.h"
 #include "app/refinement_run.h"
+#include "app/shell_quoted.h"
 #include "base/angles.h"
 
 namespace ltcfit::app {
@@ -231,10 +232,10 @@ Provenance makeProvenance(const FitArguments& a) {
   p.tool = "ltcfit";
   p.toolVersion = LTCFIT_VERSION;
   p.seed = a.seed;
-  p.command = fmt::format("ltcfit fit {} --size {}", iso ? "iso" : "aniso", a.size);
+  p.command = fmt::format("ltcfit fit {} --size {}", iso ? "iso" : "aniso", shellQuoted(a.size));
   p.options = {{"size", a.size}};
   const auto add = [&](const char* flag, const char* name, const auto& value, Provenance::Value stored) {
-    p.command += fmt::format(" {} {}", flag, value);
+    p.command += fmt::format(" {} {}", flag, shellQuoted(fmt::format("{}", value)));
     p.options.emplace_back(name, std::move(stored));
   };
   if (iso || a.axes != kAnisotropicAxes) add("--axes", "axes", a.axes, a.axes);

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/fit_runs.h"
 #include "app/fit_summary.h"
+#include "base/diagnostics.h"
 #include "fit/moment_start.h"
 #include "fit/target_lobe.h"
 #include "ltc/ltc.h"
@@ -41,7 +42,7 @@ int fitEntryCommand(const EntryArguments& a) {
   JobResult r = fitJob({p, familyOf(p)}, "ggx", options);
   const Times times = watch.elapsed();
   if (!r.fitted) {
-    fmt::print(stderr, "ltcfit: the fit ended with a matrix without an inverse\n");
+    complain("the fit ended with a matrix without an inverse");
     return kExitQuality;
   }
   r.m = projectOnFamily(r.m, familyOf(p));

@@ -13,6 +13,7 @@
 #include "app/fit_runs.h"
 #include "app/fit_summary.h"
 #include "app/progress.h"
+#include "base/diagnostics.h"
 #include "export/atomic_file.h"
 #include "fit/checkpoint.h"
 #include "report/statistics.h"
@@ -142,17 +143,14 @@ std::unique_ptr<Checkpoint> openCheckpoint(const FitArguments& a, const TablePla
 
 int refuseUnusable(std::size_t unusable, const FitArguments& a) {
   if (unusable == 0) return kExitOk;
-  fmt::print(stderr,
-             "ltcfit: {} entries are unusable (no inverse in float32, or worse than no light): no table was "
-             "written{}\n",
-             unusable,
-             !a.reportPath.empty() ? ""
-             : isWarmStartedL3(a)  ? "; --report FILE.csv lists them"
-             : isStream(a.output)
-                 ? "; --report FILE.csv lists them"
-                 : fmt::format("; --resume --report FILE.csv lists them at once, without {}.part a "
-                               "run starts anew",
-                               a.output));
+  complain(fmt::format(
+      "{} entries are unusable (no inverse in float32, or worse than no light): no table was written{}",
+      unusable,
+      !a.reportPath.empty() ? ""
+      : isWarmStartedL3(a) || isStream(a.output)
+          ? "; --report FILE.csv lists them"
+          : fmt::format("; --resume --report FILE.csv lists them at once, without {}.part a run starts anew",
+                        a.output)));
   return kExitQuality;
 }
 

@@ -1,7 +1,10 @@
 // ltcfit: fits Linearly Transformed Cosines to GGX and writes the tables that engines shade with.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -11,6 +14,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "base/diagnostics.h"
 #include "export/atomic_file.h"
 
 namespace {
@@ -18,9 +22,18 @@ namespace {
 using namespace ltcfit;
 using namespace ltcfit::app;
 
-// Without exceptions, unlike fmt::print: stderr may be closed or full, and the exit code must still be right.
-void complain(const std::string& message) {
-  std::fputs(("ltcfit: " + message + "\n").c_str(), stderr);
+// Opens the three standard descriptors that the caller has closed, the wrong way round: reading from the one
+// and writing to the others fails as before, but no file that is opened later gets their numbers, and then
+// what was meant for a terminal.
+void keepStandardDescriptors() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(fd, F_GETFD) < 0) ::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+// What ends a command: a message, and the exit code.
+int fail(const std::string& message, int exitCode) {
+  complain(std::ferror(stdout) != 0 ? "cannot write to standard output: " + message : message);
+  return std::ferror(stdout) != 0 ? kExitFailure : exitCode;
 }
 
 int run(int argc, char** argv) {
@@ -60,17 +73,13 @@ int run(int argc, char** argv) {
       return kExitBadInput;
     }
   } catch (const InputError& error) {
-    complain(error.what());
-    return kExitBadInput;
+    return fail(error.what(), kExitBadInput);
   } catch (const std::invalid_argument& error) {
-    complain(error.what());
-    return kExitBadInput;
+    return fail(error.what(), kExitBadInput);
   } catch (const std::bad_alloc&) {
-    complain("out of memory");
-    return kExitFailure;
+    return fail("out of memory", kExitFailure);
   } catch (const std::exception& error) {
-    complain(error.what());
-    return kExitFailure;
+    return fail(error.what(), kExitFailure);
   }
   // what was printed must have arrived: a full disk behind a redirection is a failure
   std::cout.flush();
@@ -84,5 +93,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepStandardDescriptors();
+  // A reader that has gone away is a write that fails: on stdout an exit code of 1, on stderr nothing.
+  std::signal(SIGPIPE, SIG_IGN);
   return run(argc, argv);
 }

@@ -8,6 +8,8 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/refinement_checkpoint.h"
+#include "app/shell_quoted.h"
+#include "base/diagnostics.h"
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/little_endian.h"
@@ -57,8 +59,8 @@ Provenance provenanceOf(const Table& table, const RefinementSource& source,
     p.tool.assign("ltcfit");
     p.toolVersion.assign(LTCFIT_VERSION);
     p.seed = seed;
-    p.command =
-        fmt::format("ltcfit refine {} --points {} --iterations {}", source.name, o.points, o.iterations);
+    p.command = fmt::format("ltcfit refine {} --points {} --iterations {}", shellFileName(source.name),
+                            o.points, o.iterations);
     if (!usual) p.command += fmt::format(" --stored-as {}", matrixStorageName(request.stores));
     if (request.keepScale) p.command += " --keep-scale";
     p.command += fmt::format(" --seed {}", seed);
@@ -166,8 +168,8 @@ RefinementRun refineToFile(const Table& table, const RefinementSource& source,
 
 int refuseUnusableRefinement(const RefinementRun& run) {
   if (run.result.unusable == 0) return kExitOk;
-  fmt::print(stderr, "ltcfit: refined, {} nodes are unusable (no inverse in float32): no table was written\n",
-             run.result.unusable);
+  complain(fmt::format("refined, {} nodes are unusable (no inverse in float32): no table was written",
+                       run.result.unusable));
   return kExitQuality;
 }
 
