@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <system_error>
 
 #include "app/chebyshev_summary.h"
@@ -14,6 +13,7 @@
 #include "app/half_summary.h"
 #include "app/notes.h"
 #include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/chebyshev_file.h"
 #include "export/formats.h"
@@ -124,7 +124,7 @@ int exportAllProfiles(const ExportArguments& a, const Table& table) {
                   {}};
         all.push_back(std::move(w));
         continue;
-      } catch (const std::invalid_argument& error) {
+      } catch (const Refusal& error) {
         why = error.what();
       }
     }
@@ -227,7 +227,7 @@ int runExport(const ExportArguments& a) {
   const Table table = readTable(a.input);
   try {
     return a.profile.empty() ? exportFormat(a, table) : exportProfiles(a, table);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(a.input + ": " + error.what());
   }
 }

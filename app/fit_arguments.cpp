@@ -5,13 +5,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 
 #include "app/axes_argument.h"
 #include "app/commands.h"
 #include "app/refinement_run.h"
 #include "app/shell_quoted.h"
 #include "base/angles.h"
+#include "export/atomic_file.h"
 
 namespace ltcfit::app {
 namespace {
@@ -25,7 +25,7 @@ LobeFitOptions defaultsOf(const FitArguments& a, std::string_view fitter) {
 }
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw std::invalid_argument(message);
+  throw InputError(message);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "app/shell_quoted.h"
 #include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/read_table.h"
@@ -238,16 +239,16 @@ void explainRefusal(const Made& made, const PlannedTable& planned, std::size_t m
 
 int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
   if (!a.plan.empty() && !a.scene.scene.empty())
-    throw std::invalid_argument("fit: --plan and --scene exclude each other");
+    throw InputError("fit: --plan and --scene exclude each other");
   if (a.plan.empty() && a.scene.scene.empty())
-    throw std::invalid_argument("fit: need --plan or --scene, or a subcommand; --help lists all");
-  if (a.output.empty()) throw std::invalid_argument("--output is required");
-  if (!a.full.empty() && !a.verify) throw std::invalid_argument("--full needs --verify");
+    throw InputError("fit: need --plan or --scene, or a subcommand; --help lists all");
+  if (a.output.empty()) throw InputError("--output is required");
+  if (!a.full.empty() && !a.verify) throw InputError("--full needs --verify");
   if (!a.plan.empty()) {
     for (const char* option :
          {"--max-error", "--max-bytes", "--margin", "--alpha-floor", "--lights", "--views", "--seed"})
       if (command.count(option) > 0)
-        throw std::invalid_argument(std::string(option) + " needs --scene: the plan says it (field request)");
+        throw InputError(std::string(option) + " needs --scene: the plan says it (field request)");
   }
   checkWritable(a.output);
   const ScenePlan plan = a.plan.empty() ? planOf(command, a.scene) : planFromJson(readFile(a.plan), a.plan);

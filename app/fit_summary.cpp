@@ -5,9 +5,9 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "app/commands.h"
+#include "base/refusal.h"
 #include "export/packing.h"
 #include "render/shader_variants.h"
 
@@ -52,7 +52,7 @@ LookupSummary summarizeLookup(const TableInfo& info) {
     lookup.fetches = cost.fetches;
     lookup.operations = cost.total() - cost.fetches;
     lookup.expanded = cost.expanded() - cost.fetches;
-  } catch (const std::invalid_argument& refusal) {
+  } catch (const Refusal& refusal) {
     lookup.refusal = refusal.what();
   }
   return lookup;

@@ -14,6 +14,7 @@
 #include "app/fit_summary.h"
 #include "app/progress.h"
 #include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "fit/checkpoint.h"
 #include "report/statistics.h"
@@ -134,7 +135,7 @@ std::unique_ptr<Checkpoint> openCheckpoint(const FitArguments& a, const TablePla
   const std::string fingerprint = makeProvenance(a).command + ", ltcfit " LTCFIT_VERSION + kBuild;
   try {
     return std::make_unique<Checkpoint>(path, fingerprint, plan.jobs.size());
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(error.what());
   }
 }
@@ -160,7 +161,7 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
   try {
     // the axes, before the work and not after it
     const Table axes(plan.info, std::vector<float>(plan.nodes.size() * plan.info.channels.size(), 0.0f));
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(std::string("--axes, --theta-max or --alpha-floor: ") + error.what());
   }
   const std::unique_ptr<Checkpoint> checkpoint = openCheckpoint(a, plan);

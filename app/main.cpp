@@ -8,14 +8,12 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/failure.h"
 #include "base/diagnostics.h"
-#include "export/atomic_file.h"
 
 namespace {
 
@@ -28,12 +26,6 @@ using namespace ltcfit::app;
 void keepStandardDescriptors() {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(fd, F_GETFD) < 0) ::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-}
-
-// What ends a command: a message, and the exit code.
-int fail(const std::string& message, int exitCode) {
-  complain(std::ferror(stdout) != 0 ? "cannot write to standard output: " + message : message);
-  return std::ferror(stdout) != 0 ? kExitFailure : exitCode;
 }
 
 int run(int argc, char** argv) {
@@ -72,14 +64,12 @@ int run(int argc, char** argv) {
                "; --help lists what there is");
       return kExitBadInput;
     }
-  } catch (const InputError& error) {
-    return fail(error.what(), kExitBadInput);
-  } catch (const std::invalid_argument& error) {
-    return fail(error.what(), kExitBadInput);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory", kExitFailure);
-  } catch (const std::exception& error) {
-    return fail(error.what(), kExitFailure);
+  } catch (...) {
+    const Failure failure = failureOf(std::current_exception());
+    // a print that failed has thrown, too
+    const bool output = std::ferror(stdout) != 0;
+    complain(output ? "cannot write to standard output: " + failure.message : failure.message);
+    return output ? kExitFailure : failure.exitCode;
   }
   // what was printed must have arrived: a full disk behind a redirection is a failure
   std::cout.flush();

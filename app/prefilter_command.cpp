@@ -7,10 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/notes.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/picture.h"
 #include "render/light_texture_file.h"
@@ -92,7 +92,7 @@ int runPrefilter(const PrefilterArguments& a) {
     files = lightTextureFiles(toLightTextureFile(texture, a.floats ? Precision::kFloat : Precision::kHalf),
                               output.filename().string(),
                               a.uncompressed ? Ktx2Compression::kNone : Ktx2Compression::kZstd);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(a.input + ": " + error.what());
   }
   std::vector<std::string> paths;

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/refinement_checkpoint.h"
 #include "app/shell_quoted.h"
 #include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/little_endian.h"
@@ -129,7 +129,7 @@ RefinementOptions refinementOptions(bool isotropic, int points, int iterations, 
   o.seed = static_cast<std::uint64_t>(seed);
   o.threads = threads;
   std::string error;
-  if (!o.isValid(&error)) throw std::invalid_argument(fmt::format("--{}{}", prefix, error));
+  if (!o.isValid(&error)) throw InputError(fmt::format("--{}{}", prefix, error));
   return o;
 }
 
@@ -161,7 +161,7 @@ RefinementRun refineToFile(const Table& table, const RefinementSource& source,
     if (run.result.unusable == 0) writeFileAtomically(output, tableToJson(run.result.table));
     if (checkpoint) checkpoint->remove();
     return run;
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError((source.name.empty() ? std::string("--refine") : source.name) + ": " + error.what());
   }
 }

@@ -15,6 +15,7 @@
 #include "app/paths.h"
 #include "app/progress.h"
 #include "app/shell_quoted.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/measurement_files.h"
@@ -83,7 +84,7 @@ Table asRead(const ReportArguments& a, const std::string& path, const Table& fil
   if (info.stores == stores && info.normalization == normalization) return file;
   try {
     return storedAs(file, stores, normalization);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     if (shaders) return file;
     throw InputError(path + ": --stored-as " + a.storedAs + ": " + error.what());
   }

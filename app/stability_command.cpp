@@ -7,11 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/shell_quoted.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "report/stability_json.h"
 #include "report/stability_set.h"
@@ -125,7 +125,7 @@ int stabilityCommand(const StabilityArguments& a) {
   StabilitySet set;
   try {
     set = a.set.empty() ? defaultStabilitySet() : parseStabilitySet(readFile(a.set, kLargestSetFile));
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(fmt::format("{}: {}", a.set, error.what()));
   }
   options.lobes = lobesOf(set);

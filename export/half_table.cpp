@@ -8,10 +8,10 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "export/half_matrix.h"
 
 namespace ltcfit {
@@ -84,8 +84,8 @@ HalfReport roundMatrices(const Table& table, std::vector<Eigen::Matrix3d>& matri
     const std::size_t i = different[k];
     try {
       roundings[i] = roundToHalf(scale * matrices[i], stores, free, neighboursOf(table, matrices, i, scale));
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(
+    } catch (const Refusal& error) {
+      throw Refusal(
           fmt::format("{} {}; fit with a larger --alpha-floor, or write floats where there is a choice",
                       placeOf(table, i), error.what()));
     }

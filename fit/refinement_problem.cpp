@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "ggx/random.h"
 
 namespace ltcfit::internal {
@@ -117,7 +117,7 @@ RefinedLookUps::RefinedLookUps(const Table& table, const TablePlan& plan, const 
     const NodeSource& node = plan.nodes[n];
     const Matrix3d m = projectOnFamily(turned(table.entry(table.node(n)).m, -node.rotation), node.jobFamily);
     if (!m.allFinite() || !(m.determinant() > 0.0))
-      throw std::invalid_argument("node " + std::to_string(n) + " has no matrix with det > 0");
+      throw Refusal("node " + std::to_string(n) + " has no matrix with det > 0");
     entries_.emplace_back(m, node.jobFamily, form_);
   }
 }

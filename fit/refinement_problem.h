@@ -38,7 +38,7 @@ struct RefinedLookUp {
 /// for their residuals one by one: its own threads would add them up in any order.
 class RefinedLookUps final : public ceres::EvaluationCallback {
  public:
-  /// One entry for each job of the plan, as `table` has it. Throws std::invalid_argument for a node without a
+  /// One entry for each job of the plan, as `table` has it. Throws Refusal for a node without a
   /// matrix of det > 0. `plan` must outlive it.
   RefinedLookUps(const Table& table, const TablePlan& plan, const RefinementOptions& options);
 

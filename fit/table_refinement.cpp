@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <stdexcept>
 
 #include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "fit/ceres_termination.h"
 #include "fit/refined_entry.h"
 #include "fit/refinement_points.h"
@@ -68,7 +68,7 @@ std::vector<double> parametersOf(const std::vector<RefinedEntry>& entries) {
 void setParameters(const std::vector<double>& values, std::vector<RefinedEntry>* entries) {
   std::size_t size = 0;
   for (const RefinedEntry& e : *entries) size += e.size();
-  if (size != values.size()) throw std::invalid_argument("the refinement to go on with is of another table");
+  if (size != values.size()) throw Refusal("the refinement to go on with is of another table");
   auto from = values.begin();
   for (RefinedEntry& e : *entries) {
     const auto to = from + static_cast<std::ptrdiff_t>(e.size());
@@ -115,13 +115,13 @@ void checkTable(const Table& table, const TablePlan& plan) {
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const LobeParameters& p = plan.jobs[plan.nodes[n].job].parameters;
     if (!(p.alphaY > 0.0 && p.alphaX > 0.0 && p.alphaX <= 1.0))
-      throw std::invalid_argument(fmt::format("node {} has alpha_x = {:g}, alpha_y = {:g}: no lobe of (0, 1]",
-                                              n, p.alphaX, p.alphaY));
+      throw Refusal(fmt::format("node {} has alpha_x = {:g}, alpha_y = {:g}: no lobe of (0, 1]", n, p.alphaX,
+                                p.alphaY));
     const Matrix3d free = projectOnFamily(Matrix3d::Ones(), plan.nodes[n].family);
     for (Eigen::Index k = 0; k < 9; ++k) {
       const std::string name = fmt::format("m{}{}", k / 3, k % 3);
       if (free(k / 3, k % 3) != 0.0 && std::find(channels.begin(), channels.end(), name) == channels.end())
-        throw std::invalid_argument(fmt::format("node {} needs {}, which is no channel", n, name));
+        throw Refusal(fmt::format("node {} needs {}, which is no channel", n, name));
     }
   }
 }
@@ -177,7 +177,7 @@ RefinementResult refineTable(const Table& table, const RefinementOptions& o, con
                              RefinementObserver* observer) {
   const TableInfo& info = table.info();
   if (!table.isIsotropic() && info.stores != MatrixStorage::kM)
-    throw std::invalid_argument("an anisotropic table is refined as it is looked up, by M: it stores Minv");
+    throw Refusal("an anisotropic table is refined as it is looked up, by M: it stores Minv");
   const TablePlan plan = table.isIsotropic()
                              ? planIsotropicTable(info.axes, info.alphaFloor)
                              : planAnisotropicTable(info.axes, info.alphaFloor, SymmetryMode::kDuring);

@@ -6,9 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "base/parallel_for.h"
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -132,21 +132,20 @@ double finestSigma(std::size_t size, const PrefilterOptions& options) {
 
 std::size_t sizeFor(const LightTexture& picture, const PrefilterOptions& options) {
   if (picture.width == 0 || picture.height == 0 || picture.texels.size() != picture.width * picture.height)
-    throw std::invalid_argument("the picture has no texels, or not as many as its size says");
+    throw Refusal("the picture has no texels, or not as many as its size says");
   if (!(options.margin >= 0.0 && options.margin <= 4.0))
-    throw std::invalid_argument(fmt::format("margin {}: need 0 to 4", options.margin));
+    throw Refusal(fmt::format("margin {}: need 0 to 4", options.margin));
   if (!(options.spread >= 0.1 && options.spread <= 10.0))
-    throw std::invalid_argument(fmt::format("spread {}: need 0.1 to 10", options.spread));
+    throw Refusal(fmt::format("spread {}: need 0.1 to 10", options.spread));
   if (!(options.aspect >= 1.0 / 64.0 && options.aspect <= 64.0))
-    throw std::invalid_argument(fmt::format("aspect {}: need 1/64 to 64", options.aspect));
+    throw Refusal(fmt::format("aspect {}: need 1/64 to 64", options.aspect));
   if (options.size == 0) {
     const auto along = static_cast<double>(std::max(picture.width, picture.height));
     const auto wanted = static_cast<std::size_t>(std::ceil(along * (1.0 + 2.0 * options.margin) - 1e-9));
     return std::clamp<std::size_t>(std::bit_ceil(wanted), 4, kMaxSize);
   }
   if (!std::has_single_bit(options.size) || options.size < 4 || options.size > kMaxSize)
-    throw std::invalid_argument(
-        fmt::format("size {}: need a power of two from 4 to {}", options.size, kMaxSize));
+    throw Refusal(fmt::format("size {}: need a power of two from 4 to {}", options.size, kMaxSize));
   return options.size;
 }
 

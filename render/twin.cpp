@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "ltc/polygon.h"
 #include "ltc/sphere.h"
 #include "render/textured_light.h"
@@ -120,7 +121,7 @@ Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& optio
   const std::vector<std::string>& channels = table.info().channels;
   const auto need = [&](const char* channel) {
     if (std::find(channels.begin(), channels.end(), channel) == channels.end())
-      throw std::invalid_argument(fmt::format("the table has no {}", channel));
+      throw Refusal(fmt::format("the table has no {}", channel));
   };
   need("norm");
   if (scene.needsFresnel()) need("fresnel");

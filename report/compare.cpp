@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 
 #include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "report/projections.h"
 
 namespace ltcfit {
@@ -56,7 +56,7 @@ double lobeDistance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 TableDifference compareTables(const Table& first, const Table& second) {
   if (first.isIsotropic() != second.isIsotropic())
-    throw std::invalid_argument("one table is isotropic, the other anisotropic");
+    throw Refusal("one table is isotropic, the other anisotropic");
   TableDifference out;
   out.sameNodes = sameNodes(first, second);
   out.sameStorage = out.sameNodes && first.info().stores == second.info().stores &&
