@@ -224,6 +224,18 @@ void checkOutput(const CheckGlArguments& a, const ShadingCheckOptions& options) 
   }
 }
 
+// What the shaders cost, in general and the table's own; nothing in a build that cannot count it.
+std::vector<ShaderVariantCost> costsFor([[maybe_unused]] const ShaderTable& table) {
+#if LTCFIT_STUDY
+  std::vector<ShaderVariant> variants = shaderVariants();
+  if (table.lookup)
+    for (ShaderVariant& variant : lookupVariants(table.table.info())) variants.push_back(std::move(variant));
+  return costsOf(std::move(variants));
+#else
+  return {};
+#endif
+}
+
 int checkGlCommand(const CheckGlArguments& a) {
   checkArguments(a);
   const ShadingCheckOptions options = toOptions(a);
@@ -251,10 +263,7 @@ int checkGlCommand(const CheckGlArguments& a) {
     check = runShadingCheck(table, against ? &*against : nullptr, options,
                             [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
-  std::vector<ShaderVariant> variants = shaderVariants();
-  if (table.lookup)
-    for (ShaderVariant& variant : lookupVariants(table.table.info())) variants.push_back(std::move(variant));
-  const std::vector<ShaderVariantCost> costs = costsOf(std::move(variants));
+  const std::vector<ShaderVariantCost> costs = costsFor(table);
   const nlohmann::ordered_json json =
       shadingToJson({fileName(a.table), &table}, {fileName(a.against), against ? &*against : nullptr},
                     options, check, costs, commandOf(a));
@@ -269,7 +278,9 @@ int checkGlCommand(const CheckGlArguments& a) {
     fmt::print("{}", text);
   } else {
     printCheck(a, options, table, against ? &*against : nullptr, check);
+#if LTCFIT_STUDY
     if (a.cost) fmt::print("\n{}", formatShaderCosts(costs));
+#endif
   }
   return check.passed() ? kExitOk : kExitQuality;
 }
@@ -335,10 +346,12 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
                  "Show the scenes in a window instead, to turn and change by mouse and keys (printed then)")
       ->excludes("--against")
       ->excludes("--output");
+#if LTCFIT_STUDY
   command->add_flag(
       "--cost", a->cost,
       "Also print what each variant of the look-up costs: texture fetches and scalar operations,\n"
       "counted in its optimised SPIR-V (shading.json has them always)");
+#endif
   command->add_flag("-q,--quiet", a->quiet, "No progress line");
   command->add_flag("--json", a->json, "Print the JSON instead of the table");
   command->callback([a, &status] { status.exitCode = checkGlCommand(*a); });

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <variant>
 
 #include "app/axes_argument.h"
 #include "app/commands.h"
@@ -12,6 +14,7 @@
 #include "app/shell_quoted.h"
 #include "base/angles.h"
 #include "export/atomic_file.h"
+#include "fit/fit_provenance.h"
 
 namespace ltcfit::app {
 namespace {
@@ -138,6 +141,10 @@ void addTableOptions(CLI::App& command, FitArguments& a) {
   command.add_flag("-q,--quiet", a.quiet, "Print nothing but errors");
 }
 
+SymmetryMode symmetryOf(const FitArguments& a) {
+  return a.symmetry == "after" ? SymmetryMode::kAfter : SymmetryMode::kDuring;
+}
+
 bool isWarmStartedL3(const FitArguments& a) {
   return a.kind == FitKind::kIsotropic && a.fitter == "l3";
 }
@@ -232,35 +239,19 @@ Provenance makeProvenance(const FitArguments& a) {
   p.tool = "ltcfit";
   p.toolVersion = LTCFIT_VERSION;
   p.seed = a.seed;
-  p.command = fmt::format("ltcfit fit {} --size {}", iso ? "iso" : "aniso", shellQuoted(a.size));
   p.options = {{"size", a.size}};
-  const auto add = [&](const char* flag, const char* name, const auto& value, Provenance::Value stored) {
-    p.command += fmt::format(" {} {}", flag, shellQuoted(fmt::format("{}", value)));
-    p.options.emplace_back(name, std::move(stored));
-  };
-  if (iso || a.axes != kAnisotropicAxes) add("--axes", "axes", a.axes, a.axes);
-  add("--fitter", "fitter", a.fitter, a.fitter);
-  if (a.fitter != "l3") add("--preset", "preset", presetOf(a), presetOf(a));
-  if (a.fitter == "l3") {
-    const int samples = a.samples > 0 ? a.samples : EntryFitOptions{}.samples;
-    if (iso) add("--family", "family", a.family, a.family);
-    add("--samples", "samples", samples, std::int64_t{samples});
-    if (a.maxEvaluations != NelderMeadOptions{}.maxEvaluations)
-      add("--max-evaluations", "max_evaluations", a.maxEvaluations, std::int64_t{a.maxEvaluations});
-  } else {
-    if (a.samples > 0) add("--samples", "samples", a.samples, std::int64_t{a.samples});
-    if (a.directions > 0) add("--directions", "directions", a.directions, std::int64_t{a.directions});
+  if (iso || a.axes != kAnisotropicAxes) p.options.emplace_back("axes", a.axes);
+  const FitRecipe recipe{kindOf(a), a.preset, toFitOptions(a), symmetryOf(a)};
+  for (auto& option : provenanceOptions(recipe)) p.options.push_back(std::move(option));
+  p.options.emplace_back("alpha_floor", a.alphaFloor);
+  if (a.thetaMax != kHalfPi) p.options.emplace_back("theta_max", a.thetaMax);
+  p.command = fmt::format("ltcfit fit {}", iso ? "iso" : "aniso");
+  for (const auto& [name, value] : p.options) {
+    std::string flag = name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    p.command += fmt::format(
+        " --{} {}", flag, shellQuoted(std::visit([](const auto& v) { return fmt::format("{}", v); }, value)));
   }
-  if (a.fitter == "light") {
-    if (a.lights > 0) add("--lights", "lights", a.lights, std::int64_t{a.lights});
-    add("--weighting", "weighting", a.weighting, a.weighting);
-    add("--size-exponent", "size_exponent", sizeExponentOf(a), sizeExponentOf(a));
-  }
-  if (a.fitter == "light" || a.fitter == "sw")
-    add("--leak-weight", "leak_weight", leakWeightOf(a), leakWeightOf(a));
-  if (!iso && a.symmetry != "during") add("--symmetry", "symmetry", a.symmetry, a.symmetry);
-  add("--alpha-floor", "alpha_floor", a.alphaFloor, a.alphaFloor);
-  if (a.thetaMax != kHalfPi) add("--theta-max", "theta_max", a.thetaMax, a.thetaMax);
   p.command += fmt::format(" --seed {}", a.seed);
   return p;
 }

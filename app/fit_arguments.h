@@ -61,6 +61,7 @@ double leakWeightOf(const FitArguments& a);
 double sizeExponentOf(const FitArguments& a);
 /// How a lobe is fitted, valid.
 TableFitOptions toFitOptions(const FitArguments& a);
+SymmetryMode symmetryOf(const FitArguments& a);
 /// Whether fitIsotropicTable does it (warm starts along the table), not fitTable.
 bool isWarmStartedL3(const FitArguments& a);
 

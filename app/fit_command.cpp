@@ -6,9 +6,11 @@
 
 #include "app/axes_argument.h"
 #include "app/commands.h"
-#include "app/fit_plan.h"
 #include "app/fit_runs.h"
 #include "export/atomic_file.h"
+#if LTCFIT_SCENE
+#include "app/fit_plan.h"
+#endif
 
 namespace ltcfit::app {
 namespace {
@@ -60,7 +62,7 @@ int fitAniso(const CLI::App& command, const FitArguments& a) {
   o.thetaMax = a.thetaMax;
   o = valid(o);
   checkOutputs(a);
-  const SymmetryMode symmetry = a.symmetry == "after" ? SymmetryMode::kAfter : SymmetryMode::kDuring;
+  const SymmetryMode symmetry = symmetryOf(a);
   return fitTableCommand(a, planAnisotropicTable(o, symmetry));
 }
 
@@ -167,6 +169,7 @@ void addEntry(CLI::App& fit, CommandStatus& status) {
 }  // namespace
 
 void addFitCommand(CLI::App& app, CommandStatus& status) {
+#if LTCFIT_SCENE
   CLI::App* const fit =
       app.add_subcommand("fit", "Fit a table, or a single lobe; with --plan or --scene, what a scene needs");
   fit->require_subcommand(0, 1);
@@ -175,6 +178,10 @@ void addFitCommand(CLI::App& app, CommandStatus& status) {
   fit->callback([a, fit, &status] {
     if (fit->get_subcommands().empty()) status.exitCode = fitPlanCommand(*fit, *a);
   });
+#else
+  CLI::App* const fit = app.add_subcommand("fit", "Fit a table, or a single lobe");
+  fit->require_subcommand(1);
+#endif
   addIso(*fit, status);
   addAniso(*fit, status);
   addEntry(*fit, status);

@@ -9,7 +9,7 @@
 #include "app/commands.h"
 #include "base/refusal.h"
 #include "export/packing.h"
-#include "render/shader_variants.h"
+#include "export/shader_lookup.h"
 
 namespace ltcfit::app {
 namespace {
@@ -48,10 +48,8 @@ LookupSummary summarizeLookup(const TableInfo& info) {
   LookupSummary lookup;
   lookup.bytes = leanSize(info, Precision::kHalf).bytes;
   try {
-    const ShaderCost cost = lookupCost(info);
-    lookup.fetches = cost.fetches;
-    lookup.operations = cost.total() - cost.fetches;
-    lookup.expanded = cost.expanded() - cost.fetches;
+    makeShaderLookup(info, ShadingLanguage::kGlsl, "ltc");
+    lookup.fetches = fetchesOf(info);
   } catch (const Refusal& refusal) {
     lookup.refusal = refusal.what();
   }
@@ -61,8 +59,7 @@ LookupSummary summarizeLookup(const TableInfo& info) {
 void printLookup(const LookupSummary& lookup) {
   fmt::print("as textures of halves (--layout lean) {} bytes; ", lookup.bytes);
   if (lookup.refusal.empty()) {
-    fmt::print("its own look-up: {} fetches, {} operations ({} as GPUs take atan and division)\n",
-               lookup.fetches, lookup.operations, lookup.expanded);
+    fmt::print("its own look-up: {} fetch{}\n", lookup.fetches, lookup.fetches == 1 ? "" : "es");
   } else {
     fmt::print("no look-up of its own: {}\n", lookup.refusal);
   }
@@ -73,8 +70,6 @@ void addLookup(const LookupSummary& lookup, nlohmann::ordered_json* out) {
   json["bytes"] = lookup.bytes;
   if (lookup.refusal.empty()) {
     json["fetches"] = lookup.fetches;
-    json["operations"] = lookup.operations;
-    json["operations_expanded"] = lookup.expanded;
   } else {
     json["refusal"] = lookup.refusal;
   }

@@ -32,13 +32,11 @@ class Stopwatch {
 std::unique_ptr<Score> scoreFit(const Table& table, const FitArguments& a);
 
 /// What a look-up of the table costs a shader that has the table's own look-up (export --format glsl-lookup):
-/// its size as --layout lean in halves, fetches and operations; or that there is none, and why.
+/// its size as --layout lean in halves, and its fetches. What it computes besides: check-gl --cost.
 struct LookupSummary {
   std::size_t bytes = 0;
   int fetches = 0;
-  int operations = 0;   ///< ShaderCost::total, without the fetches
-  int expanded = 0;     ///< ShaderCost::expanded, without the fetches
-  std::string refusal;  ///< not empty: none can be made
+  std::string refusal;  ///< why there is no such look-up; empty where there is one
 };
 LookupSummary summarizeLookup(const TableInfo& info);
 void printLookup(const LookupSummary& lookup);

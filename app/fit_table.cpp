@@ -157,7 +157,7 @@ int refuseUnusable(std::size_t unusable, const FitArguments& a) {
 
 int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
   const TableFitOptions options = toFitOptions(a);
-  const SymmetryMode symmetry = a.symmetry == "after" ? SymmetryMode::kAfter : SymmetryMode::kDuring;
+  const SymmetryMode symmetry = symmetryOf(a);
   try {
     // the axes, before the work and not after it
     const Table axes(plan.info, std::vector<float>(plan.nodes.size() * plan.info.channels.size(), 0.0f));

@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/commands.h"
@@ -28,6 +29,49 @@ void keepStandardDescriptors() {
     if (::fcntl(fd, F_GETFD) < 0) ::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
+void addCommands(CLI::App& app, CommandStatus& status) {
+  addFitCommand(app, status);
+#if LTCFIT_SCENE
+  addSceneCommand(app, status);
+#endif
+  addScoreCommand(app, status);
+  addCompareCommand(app, status);
+  addExportCommand(app, status);
+#if LTCFIT_SHADE
+  addCheckGlCommand(app, status);
+#endif
+#if LTCFIT_STUDY
+  addParetoCommand(app, status);
+#endif
+#if LTCFIT_SHADE
+  addPrefilterCommand(app, status);
+#endif
+  addRefineCommand(app, status);
+#if LTCFIT_REPORT
+  addReportCommand(app, status);
+#endif
+#if LTCFIT_STUDY
+  addStabilityCommand(app, status);
+#endif
+}
+
+// Part of the build that brings a command; empty for commands that every build has, and for others.
+std::string_view partOf(std::string_view command) {
+  if (command == "check-gl" || command == "prefilter") return "LTCFIT_SHADE";
+  if (command == "scene") return "LTCFIT_SCENE";
+  if (command == "report") return "LTCFIT_REPORT";
+  if (command == "pareto" || command == "stability") return "LTCFIT_STUDY";
+  return {};
+}
+
+// What is wrong where the first word is no command of this build.
+std::string unknownCommand(const std::string& word) {
+  if (const std::string_view part = partOf(word); !part.empty())
+    return fmt::format("{}: left out of this build, which was configured with -D{}=OFF", word, part);
+  return fmt::format("{} '{}'; --help lists what there is",
+                     word.starts_with('-') ? "unknown option" : "unknown command", word);
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Fits Linearly Transformed Cosines to the GGX lobe and writes the tables that real-time\n"
@@ -40,17 +84,7 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done; 1 I/O or run-time failure; 2 bad option or input file; 3 a quality gate failed.\n"
       "Help on a command: ltcfit COMMAND --help");
   CommandStatus status;
-  addFitCommand(app, status);
-  addSceneCommand(app, status);
-  addScoreCommand(app, status);
-  addCompareCommand(app, status);
-  addExportCommand(app, status);
-  addCheckGlCommand(app, status);
-  addParetoCommand(app, status);
-  addPrefilterCommand(app, status);
-  addRefineCommand(app, status);
-  addReportCommand(app, status);
-  addStabilityCommand(app, status);
+  addCommands(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -59,9 +93,8 @@ int run(int argc, char** argv) {
     } else {
       const std::vector<std::string> extra = app.remaining(true);
       const bool command = error.get_name() == "RequiredError" && !extra.empty();
-      const char* const kind = !command || extra[0].front() == '-' ? "unknown option" : "unknown command";
-      complain((command ? fmt::format("{} '{}'", kind, extra[0]) : std::string(error.what())) +
-               "; --help lists what there is");
+      complain(command ? unknownCommand(extra[0])
+                       : std::string(error.what()) + "; --help lists what there is");
       return kExitBadInput;
     }
   } catch (...) {

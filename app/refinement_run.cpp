@@ -66,6 +66,9 @@ Provenance provenanceOf(const Table& table, const RefinementSource& source,
     p.command += fmt::format(" --seed {}", seed);
     setOption(&p, "source",
               from.command.empty() ? from.tool : fmt::format("{}: {}", from.tool, from.command));
+    const bool kept = std::any_of(p.options.begin(), p.options.end(),
+                                  [](const auto& option) { return option.first == "fit_seed"; });
+    if (from.tool == "ltcfit" && seed != from.seed && !kept) setOption(&p, "fit_seed", from.seed);
   }
   setOption(&p, "refine_points", std::int64_t{o.points});
   setOption(&p, "refine_iterations", std::int64_t{o.iterations});

@@ -201,9 +201,9 @@ int report(const ReportArguments& a) {
   const PageParts page = builtInPage();
   if (page.charts.empty())
     throw std::runtime_error(
-        "this build has no charting library for the page; with npm and a network, `cmake --build build` "
-        "fetches it, "
-        "and `cmake -DLTCFIT_ECHARTS=FILE build` takes an echarts.min.js that is there");
+        "this build has no charting library for the page; with npm and a network, `cmake build && cmake "
+        "--build "
+        "build` fetches it, and `cmake -DLTCFIT_ECHARTS=FILE build` takes an echarts.min.js that is there");
   checkOutputs(a);
   std::vector<std::vector<ReportTable>> groups = readGroups(a);
   ReportSettings settings;

@@ -72,6 +72,7 @@ void printSummaries(const Score& score) {
                number(s.mean), number(s.p50), number(s.p90), number(s.p99), number(s.max), s.nonFinite);
   }
   fmt::print("singular matrices: {} in double, {} in float32\n", score.singular, score.singularFloat32);
+  for (const std::string& note : score.notes) fmt::print("note: {}\n", note);
 }
 
 void printRatios(const Score& ours, const Score& theirs) {
@@ -142,10 +143,12 @@ nlohmann::ordered_json toJson(const std::string& path, const Score& score) {
                                                    {"count", s.count},
                                                    {"non_finite", s.nonFinite}};
   }
-  return {{"table", path},
-          {"singular", score.singular},
-          {"singular_float32", score.singularFloat32},
-          {"metrics", metrics}};
+  nlohmann::ordered_json out{{"table", path},
+                             {"singular", score.singular},
+                             {"singular_float32", score.singularFloat32},
+                             {"metrics", metrics}};
+  if (!score.notes.empty()) out["notes"] = score.notes;
+  return out;
 }
 
 // One line a point; columns of the other tables start with "against_", "against2_", ...

@@ -20,6 +20,14 @@ EntryFit toEntryFit(const OptimizerResult& best, const Eigen::Matrix3d& m, doubl
 
 }  // namespace
 
+bool EntryFitOptions::isValid(std::string* error) const {
+  if (samples < 16 || samples > 1 << 22) {
+    *error = "--samples " + std::to_string(samples) + " must be in [16, 4194304]";
+    return false;
+  }
+  return nelderMead.isValid(error);
+}
+
 EntryFit fitIsotropicEntry(const Lobe& lobe, const LobeMoments& moments, const Eigen::Matrix3d& start,
                            const EntryFitOptions& options) {
   const bool normalView = lobe.wo().x() == 0.0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 
 #include "fit/isotropic_family.h"
 #include "fit/matrix_family.h"
@@ -20,6 +21,9 @@ struct EntryFitOptions {
   NelderMeadOptions nelderMead;
   /// Edge of the first simplex, in the scaled parameters of IsotropicParametrization.
   double simplexEdge = 0.1;
+
+  /// False with a message naming the option, its value and its range.
+  bool isValid(std::string* error) const;
 };
 
 /// Result of one fit.

@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "fit/lobe_shape.h"
@@ -24,15 +26,51 @@ bool isUsable(const Matrix3d& m) {
   return m.determinant() > 0.0 && isInvertibleInFloat(m);
 }
 
+// A lobe as its neighbours see it, and its matrix, if it has one already.
+struct FittedLobe {
+  Eigen::Vector3d mean;
+  LobeShape shape;
+  Matrix3d m = Matrix3d::Identity();
+};
+
+// The neighbour's matrix, carried into this entry's frame of the mean direction and scaled by the ratios of
+// the lobes' widths: a sharp lobe turns by many of its own widths from one angle node to the next, and near
+// grazing view it narrows by orders of magnitude.
+Matrix3d carried(const FittedLobe& from, const FittedLobe& to) {
+  Matrix3d local = frameAbout(from.mean).transpose() * from.m;
+  local.col(0) *= to.shape.inPlane / from.shape.inPlane;
+  local.col(1) *= to.shape.across / from.shape.across;
+  return frameAbout(to.mean) * local;
+}
+
+// Whether a fit is to be tried again, by the relative L3 errors of its neighbours.
+bool isSuspicious(const EntryFit& fit, std::vector<double> errors) {
+  if (fit.termination != Termination::kConverged || !isUsable(fit.m)) return true;
+  if (fit.relativeL3 < kGoodEnough) return false;
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                   errors.end());
+  return !(fit.relativeL3 <= kNeighbourFactor * errors[errors.size() / 2]);
+}
+
+EntryFitOptions ofSecondTry(EntryFitOptions entry) {
+  entry.simplexEdge *= kRefitEdgeFactor;
+  return entry;
+}
+
+bool isBetter(const EntryFit& again, const EntryFit& best) {
+  return isUsable(again.m) && (again.cost < best.cost || !isUsable(best.m));
+}
+
 // The work on one table: nodes by (theta index t, alpha index a).
 class TableFit {
  public:
-  TableFit(const IsotropicFitOptions& options, const FitProgress& progress)
-      : options_(options),
+  TableFit(TableInfo info, const EntryFitOptions& entry, int threads, const FitProgress& progress)
+      : entry_(entry),
+        threads_(threads),
         progress_(progress),
-        info_(planIsotropicTable(options.table).info),
-        nT_(options.table.thetaNodes),
-        nA_(options.table.alphaNodes),
+        info_(std::move(info)),
+        nT_(info_.axes[0].size()),
+        nA_(info_.axes[1].size()),
         moments_(nT_ * nA_),
         shapes_(nT_ * nA_),
         reports_(nT_ * nA_) {}
@@ -45,7 +83,7 @@ class TableFit {
       fitFirst(0, a, first ? Start{0, a, WarmStart::kIdentity} : Start{0, a + 1, WarmStart::kAlphaNeighbour});
     }
     // sharp rows take longest: first, so that no thread ends alone with one
-    parallelFor(nA_, {.threads = options_.threads}, [&](std::size_t a) {
+    parallelFor(nA_, {.threads = threads_}, [&](std::size_t a) {
       for (std::size_t t = 1; t < nT_; ++t) fitFirst(t, a, {t - 1, a, WarmStart::kThetaNeighbour});
     });
     refitOutliers();
@@ -65,18 +103,13 @@ class TableFit {
     return GgxLobe(viewDirection(theta(t), 0.0), {alpha(a), alpha(a)});
   }
 
-  // The neighbour's matrix, carried into this entry's frame of the mean direction and scaled by the ratios of
-  // the lobes' widths: a sharp lobe turns by many of its own widths from one angle node to the next, and near
-  // grazing view it narrows by orders of magnitude.
+  FittedLobe fitted(std::size_t i) const { return {moments_[i].mean, shapes_[i], reports_[i].fit.m}; }
+
   Matrix3d startMatrix(std::size_t t, std::size_t a, const Start& from) const {
     if (from.kind == WarmStart::kIdentity) return Matrix3d::Identity();
     const std::size_t target = flat(t, a);
     if (from.kind == WarmStart::kShape) return matrixOfShape(shapes_[target], moments_[target].mean);
-    const std::size_t source = flat(from.t, from.a);
-    Matrix3d local = frameAbout(moments_[source].mean).transpose() * reports_[source].fit.m;
-    local.col(0) *= shapes_[target].inPlane / shapes_[source].inPlane;
-    local.col(1) *= shapes_[target].across / shapes_[source].across;
-    return frameAbout(moments_[target].mean) * local;
+    return carried(fitted(flat(from.t, from.a)), fitted(target));
   }
 
   void fitFirst(std::size_t t, std::size_t a, const Start& from) {
@@ -85,7 +118,7 @@ class TableFit {
     moments_[i] = computeMoments(target);
     shapes_[i] = measureLobeShape(target, moments_[i].mean);
     EntryReport& report = reports_[i];
-    report.fit = fitIsotropicEntry(target, moments_[i], startMatrix(t, a, from), options_.entry);
+    report.fit = fitIsotropicEntry(target, moments_[i], startMatrix(t, a, from), entry_);
     report.warmStart = from.kind;
     report.totalEvaluations = report.fit.evaluations;
     if (progress_) {
@@ -104,14 +137,9 @@ class TableFit {
   }
 
   bool suspicious(std::size_t t, std::size_t a) const {
-    const EntryFit& fit = reports_[flat(t, a)].fit;
-    if (fit.termination != Termination::kConverged || !isUsable(fit.m)) return true;
-    if (fit.relativeL3 < kGoodEnough) return false;
     std::vector<double> errors;
     for (const Start& n : neighbours(t, a)) errors.push_back(reports_[flat(n.t, n.a)].fit.relativeL3);
-    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
-                     errors.end());
-    return !(fit.relativeL3 <= kNeighbourFactor * errors[errors.size() / 2]);
+    return isSuspicious(reports_[flat(t, a)].fit, std::move(errors));
   }
 
   // All second tries read the first results only, so that their order does not matter.
@@ -121,7 +149,7 @@ class TableFit {
       if (suspicious(i / nA_, i % nA_)) suspects.push_back(i);
     }
     std::vector<EntryReport> better(suspects.size());
-    parallelFor(suspects.size(), {.threads = options_.threads}, [&](std::size_t k) {
+    parallelFor(suspects.size(), {.threads = threads_}, [&](std::size_t k) {
       const std::size_t i = suspects[k];
       const std::size_t t = i / nA_;
       const std::size_t a = i % nA_;
@@ -129,13 +157,11 @@ class TableFit {
       best.refitted = true;
       std::vector<Start> starts = neighbours(t, a);
       starts.push_back({t, a, WarmStart::kShape});
-      EntryFitOptions wider = options_.entry;
-      wider.simplexEdge *= kRefitEdgeFactor;
+      const EntryFitOptions wider = ofSecondTry(entry_);
       for (const Start& from : starts) {
         const EntryFit again = fitIsotropicEntry(lobe(t, a), moments_[i], startMatrix(t, a, from), wider);
         best.totalEvaluations += again.evaluations;
-        if (!isUsable(again.m)) continue;
-        if (again.cost < best.fit.cost || !isUsable(best.fit.m)) {
+        if (isBetter(again, best.fit)) {
           best.fit = again;
           best.warmStart = from.kind;
           best.improved = true;
@@ -169,7 +195,8 @@ class TableFit {
     return result;
   }
 
-  const IsotropicFitOptions& options_;
+  const EntryFitOptions& entry_;
+  int threads_;
   const FitProgress& progress_;
   TableInfo info_;
   std::size_t nT_;
@@ -199,19 +226,68 @@ std::string_view warmStartName(WarmStart start) {
 
 bool IsotropicFitOptions::isValid(std::string* error) const {
   if (!table.isValid(error)) return false;
-  if (entry.samples < 16 || entry.samples > 1 << 22) {
-    *error = "--samples " + std::to_string(entry.samples) + " must be in [16, 4194304]";
-    return false;
-  }
   if (threads < 0) {
     *error = "--threads " + std::to_string(threads) + " must not be negative";
     return false;
   }
-  return entry.nelderMead.isValid(error);
+  return entry.isValid(error);
 }
 
 IsotropicFitResult fitIsotropicTable(const IsotropicFitOptions& options, const FitProgress& progress) {
-  return TableFit(options, progress).run();
+  return TableFit(planIsotropicTable(options.table).info, options.entry, options.threads, progress).run();
+}
+
+IsotropicFitResult fitIsotropicTable(std::vector<Axis> axes, double alphaFloor, const EntryFitOptions& entry,
+                                     int threads, const FitProgress& progress) {
+  return TableFit(planIsotropicTable(std::move(axes), alphaFloor).info, entry, threads, progress).run();
+}
+
+EntryFit fitBetweenNodes(const IsotropicFitResult& table, double theta, double alpha,
+                         const EntryFitOptions& entry) {
+  const std::vector<double>& thetas = table.info.axes[0].values;
+  const std::vector<double>& alphas = table.info.axes[1].values;
+  // the last node not after the point, or the first; and the one after that
+  const auto about = [](const std::vector<double>& values, double value) {
+    const auto above = std::upper_bound(values.begin() + 1, values.end(), value);
+    const auto low = static_cast<std::size_t>(above - values.begin()) - 1;
+    return std::array{low, above == values.end() || values[low] == value ? low : low + 1};
+  };
+  const auto [t0, t1] = about(thetas, theta);
+  const auto [a0, a1] = about(alphas, alpha);
+  const auto reportOf = [&](std::size_t t, std::size_t a) -> const EntryReport& {
+    return table.reports[t * alphas.size() + a];
+  };
+  if (thetas[t0] == theta && alphas[a0] == alpha) return reportOf(t0, a0).fit;
+
+  const auto lobeAt = [](double angle, double roughness) {
+    return GgxLobe(viewDirection(angle, 0.0), {roughness, roughness});
+  };
+  const auto fittedAt = [&](std::size_t t, std::size_t a) {
+    const GgxLobe lobe = lobeAt(thetas[t], alphas[a]);
+    const Eigen::Vector3d mean = computeMoments(lobe).mean;
+    return FittedLobe{mean, measureLobeShape(lobe, mean), reportOf(t, a).fit.m};
+  };
+  const GgxLobe target = lobeAt(theta, alpha);
+  const LobeMoments moments = computeMoments(target);
+  const FittedLobe own{moments.mean, measureLobeShape(target, moments.mean)};
+  EntryFit best = fitIsotropicEntry(target, moments, carried(fittedAt(t0, a1), own), entry);
+  std::vector<std::array<std::size_t, 2>> corners;
+  std::vector<double> errors;
+  for (std::size_t t = t0; t <= t1; ++t) {
+    for (std::size_t a = a0; a <= a1; ++a) {
+      corners.push_back({t, a});
+      errors.push_back(reportOf(t, a).fit.relativeL3);
+    }
+  }
+  if (!isSuspicious(best, std::move(errors))) return best;
+  std::vector<Matrix3d> starts;
+  for (const auto& [t, a] : corners) starts.push_back(carried(fittedAt(t, a), own));
+  starts.push_back(matrixOfShape(own.shape, own.mean));
+  for (const Matrix3d& start : starts) {
+    const EntryFit again = fitIsotropicEntry(target, moments, start, ofSecondTry(entry));
+    if (isBetter(again, best)) best = again;
+  }
+  return best;
 }
 
 }  // namespace ltcfit

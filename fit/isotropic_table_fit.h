@@ -57,6 +57,17 @@ using FitProgress = std::function<void(std::size_t done, std::size_t total)>;
 /// threads. `options` must be valid.
 IsotropicFitResult fitIsotropicTable(const IsotropicFitOptions& options, const FitProgress& progress = {});
 
+/// The same for axes of any ranges, sizes and warps, theta and alpha, whose values are valid for a Table.
+IsotropicFitResult fitIsotropicTable(std::vector<Axis> axes, double alphaFloor, const EntryFitOptions& entry,
+                                     int threads, const FitProgress& progress = {});
+
+/// Fits the lobe at (theta, alpha) as a node of this table would be fitted: at a node it is the node's own
+/// fit; elsewhere it begins at the next node towards alpha = 1 and normal view, and is tried again from all
+/// nodes about it and from the lobe's own shape where a node would be. `entry` must be what the table was
+/// fitted with.
+EntryFit fitBetweenNodes(const IsotropicFitResult& table, double theta, double alpha,
+                         const EntryFitOptions& entry);
+
 /// How much worse than its neighbours (their upper median) an entry may be before it is tried again. In the
 /// default table, and with family 3, all entries above kGoodEnough end below 1.04; the local minima seen
 /// began at 1.2 and more (ltcfit fit iso --report).

@@ -64,7 +64,7 @@ Fitter fitterFromName(std::string_view name) {
 }
 
 bool LobeFitOptions::isValid(std::string* error) const {
-  return sw.isValid(error) && sgd.isValid(error) && light.isValid(error) && l3.nelderMead.isValid(error);
+  return sw.isValid(error) && sgd.isValid(error) && light.isValid(error) && l3.isValid(error);
 }
 
 void LobeFitOptions::setSeed(std::uint64_t seed) {

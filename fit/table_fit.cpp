@@ -71,13 +71,17 @@ JobResult fitJob(const LobeJob& job, std::string_view brdf, const LobeFitOptions
 
 NodeFit fitNode(const TablePlan& plan, std::size_t node, const LobeFitOptions& options) {
   const NodeSource& source = plan.nodes[node];
-  LobeFitTarget target(plan.jobs[source.job], plan.info.brdf, options);
+  return fitNode({plan.jobs[source.job], source}, plan.info.brdf, options);
+}
+
+NodeFit fitNode(const NodePlan& node, std::string_view brdf, const LobeFitOptions& options) {
+  LobeFitTarget target(node.job, brdf, options);
   const LobeFit fit = fitLobe(target, target.momentStart(), options);
   NodeFit out;
   out.norm = target.moments().albedo;
   out.fresnel = target.moments().fresnel;
   if (!hasInverse(fit.m)) return out;
-  out.m = unitThirdColumn(nodeMatrix(source, align(canonical(fit.m)).m));
+  out.m = unitThirdColumn(nodeMatrix(node.source, align(canonical(fit.m)).m));
   out.usable = out.m.allFinite() && out.m.determinant() > 0.0;
   return out;
 }

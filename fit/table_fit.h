@@ -82,6 +82,9 @@ struct NodeFit {
 /// float32, without the figures of JobResult, which cost more than the fit.
 NodeFit fitNode(const TablePlan& plan, std::size_t node, const LobeFitOptions& options);
 
+/// The same of a node alone, in the mode that it was planned for.
+NodeFit fitNode(const NodePlan& node, std::string_view brdf, const LobeFitOptions& options);
+
 /// Fits every job of the plan that `store` (may be null) does not have, and makes the nodes. In
 /// SymmetryMode::kAfter, where jobs are nodes, symmetricLoss and storedLoss are of the node's final matrix,
 /// which another job's may be. `options` must be valid. Exceptions of the store come through.

@@ -100,6 +100,17 @@ MatrixFamily familyOf(const LobeParameters& p) {
   return MatrixFamily::kGeneral;
 }
 
+NodePlan planNode(const LobeParameters& node, bool isotropicTable, SymmetryMode symmetry) {
+  const MatrixFamily family = familyOf(node);
+  if (isotropicTable) return {{node, family}, {0, 0.0, family, family}};
+  LobeParameters lobe = node;
+  const bool isotropic = node.alphaX == node.alphaY;
+  if (isotropic || node.theta == 0.0) lobe.phi = 0.0;
+  // the view from 45 degrees above an isotropic surface has no mirror symmetry in x or y: kGeneral
+  const NodeSource source{0, isotropic ? node.phi : 0.0, familyOf(lobe), family};
+  return {{lobe, symmetry == SymmetryMode::kAfter ? MatrixFamily::kGeneral : source.jobFamily}, source};
+}
+
 Eigen::Matrix3d turned(const Eigen::Matrix3d& m, double angle) {
   if (angle == 0.0) return m;
   const Eigen::Matrix3d r = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -122,9 +133,10 @@ TablePlan planIsotropicTable(std::vector<Axis> axes, double alphaFloor) {
   for (const double theta : plan.info.axes[0].values) {
     for (const double value : plan.info.axes[1].values) {
       const double alpha = std::max(value, alphaFloor);
-      const LobeParameters p{alpha, alpha, theta, 0.0};
-      plan.nodes.push_back({plan.jobs.size(), 0.0, familyOf(p), familyOf(p)});
-      plan.jobs.push_back({p, familyOf(p)});
+      NodePlan node = planNode({alpha, alpha, theta, 0.0}, true, SymmetryMode::kDuring);
+      node.source.job = plan.jobs.size();
+      plan.nodes.push_back(node.source);
+      plan.jobs.push_back(node.job);
     }
   }
   return plan;
@@ -154,16 +166,15 @@ TablePlan planAnisotropicTable(std::vector<Axis> axes, double alphaFloor, Symmet
       for (const double theta : plan.info.axes[2].values) {
         for (const double phi : plan.info.axes[3].values) {
           const LobeParameters node{alpha, std::max(alpha * lambda, alphaFloor), theta, phi};
-          LobeParameters lobe = node;
-          const bool isotropic = node.alphaX == node.alphaY;
-          if (isotropic || theta == 0.0) lobe.phi = 0.0;
+          auto [job, source] = planNode(node, false, symmetry);
+          const LobeParameters& lobe = job.parameters;
           if (symmetry == SymmetryMode::kAfter) plan.jobs.push_back({node, MatrixFamily::kGeneral});
           const auto [found, isNew] =
               jobOf.try_emplace({lobe.alphaX, lobe.alphaY, lobe.theta, lobe.phi},
                                 plan.jobs.size() - (symmetry == SymmetryMode::kAfter));
-          if (isNew && symmetry == SymmetryMode::kDuring) plan.jobs.push_back({lobe, familyOf(lobe)});
-          // the view from 45 degrees above an isotropic surface has no mirror symmetry in x or y: kGeneral
-          plan.nodes.push_back({found->second, isotropic ? phi : 0.0, familyOf(lobe), familyOf(node)});
+          if (isNew && symmetry == SymmetryMode::kDuring) plan.jobs.push_back(job);
+          source.job = found->second;
+          plan.nodes.push_back(source);
         }
       }
     }

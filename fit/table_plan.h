@@ -64,6 +64,16 @@ struct TablePlan {
   std::vector<NodeSource> nodes;  ///< in the order of the table's data
 };
 
+/// A node alone: its lobe's job, of number 0, and how the node follows from it.
+struct NodePlan {
+  LobeJob job;
+  NodeSource source;
+};
+
+/// Of a node at these parameters (Table::parameters): what the plans below have for it, but that the job is
+/// its own where a plan shares it with other nodes.
+NodePlan planNode(const LobeParameters& node, bool isotropicTable, SymmetryMode symmetry);
+
 /// `options` must be valid.
 ///
 /// Isotropic: every node is a job, mirrored by the plane of incidence, at normal view also turned about z.

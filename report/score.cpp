@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <variant>
 
 #include "base/diagnostics.h"
 #include "base/parallel_for.h"
-#include "fit/entry_fit.h"
-#include "fit/sliced_wasserstein_fit.h"
-#include "fit/table_fit.h"
-#include "fit/table_plan.h"
 #include "fit/target_lobe.h"
+#include "report/direct_fit.h"
 
 namespace ltcfit {
 namespace {
-
-using Eigen::Matrix3d;
 
 struct PointResult {
   LobeParameters parameters;
@@ -52,60 +46,8 @@ struct Target {
   MetricTarget metrics;
 };
 
-// How the table's provenance says that it was fitted; the default fitter where it does not say, or says what
-// no option allows (a damaged file). A stochastic descent takes too long here: the same distance without it.
-TableFitOptions fitOptionsOf(const Table& table, std::uint64_t seed) {
-  const auto& known = table.info().provenance.options;
-  const auto text = [&](std::string_view name) -> std::string {
-    for (const auto& [key, value] : known)
-      if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
-    return {};
-  };
-  const auto number = [&](std::string_view name, double otherwise) {
-    for (const auto& [key, value] : known) {
-      if (key != name) continue;
-      if (std::holds_alternative<double>(value)) return std::get<double>(value);
-      if (std::holds_alternative<std::int64_t>(value))
-        return static_cast<double>(std::get<std::int64_t>(value));
-    }
-    return otherwise;
-  };
-  const std::string given = text("preset");
-  const std::string preset = given == "fast" || given == "fine" ? given : "standard";
-  const std::string fitter = text("fitter");
-  TableFitOptions o;
-  o.fitter = fitter == "light" ? Fitter::kLight : fitter == "l3" ? Fitter::kL3 : Fitter::kSlicedWasserstein;
-  o.sw = slicedWassersteinPreset(preset);
-  o.light = lightFitPreset(preset);
-  const TableFitOptions standard = o;
-  o.sw.leakWeight = number("leak_weight", 0.0);
-  o.light.leakWeight = number("leak_weight", o.light.leakWeight);
-  PolygonLightOptions& lights = o.light.lights;
-  lights.sizeExponent = number("size_exponent", lights.sizeExponent);
-  lights.lights = static_cast<int>(std::clamp(number("lights", lights.lights), 0.0, 1e6));
-  for (const LightWeighting w : {LightWeighting::kRelative, LightWeighting::kMixed})
-    if (text("weighting") == lightWeightingName(w)) lights.weighting = w;
-  std::string error;
-  if (!o.isValid(&error)) {
-    o.sw = standard.sw;
-    o.light = standard.light;
-  }
-  o.sw.seed = o.light.lights.seed = o.l3.seed = seed;
-  if (text("family") == "3") o.l3.family = IsotropicFamily::kMeanFrame3;
-  return o;
-}
-
-// A fit of the very point, of the table's own kind: its error at a node is then no cost of interpolation.
-// Isotropic tables that do not say how they were fitted are taken for L3 ones: the published one is.
-Matrix3d directFit(const Matrix3d& fetched, const Table& table, const Target& target,
-                   const TableFitOptions& options) {
-  if (table.isIsotropic() && (options.fitter == Fitter::kL3 || table.info().provenance.options.empty()))
-    return fitIsotropicEntry(*target.lobe, target.metrics.moments(), fetched, options.l3).m;
-  return fitJob({target.parameters, familyOf(target.parameters)}, table.info().brdf, options).m;
-}
-
 PointResult judge(const TableEntry& entry, const Table& table, const Target& target,
-                  const ScoreOptions& options) {
+                  const DirectFit* direct) {
   PointResult out;
   out.parameters = target.parameters;
   out.singular = !entry.invertible;
@@ -118,11 +60,11 @@ PointResult judge(const TableEntry& entry, const Table& table, const Target& tar
   const Ltc ltc(entry.m);
   out.metrics = target.metrics.evaluate(ltc);
   addEntryErrors(entry, table.info().stores, target.metrics.moments(), out.metrics);
-  if (options.interpolation) {
-    const Matrix3d direct =
-        directFit(entry.m, table, target, fitOptionsOf(table, mixSeed(options.metrics.seed, 21)));
+  if (direct != nullptr) {
+    const std::optional<Eigen::Matrix3d> m =
+        (*direct)(target.parameters, *target.lobe, target.metrics.moments(), entry.m);
     out.metrics.set(Metric::kInterpolationRatio,
-                    out.metrics.get(Metric::kSw1) / target.metrics.sw1(Ltc(direct)));
+                    m ? out.metrics.get(Metric::kSw1) / target.metrics.sw1(Ltc(*m)) : std::nan(""));
   }
   return out;
 }
@@ -139,6 +81,9 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   }
   const std::vector<Point> points =
       makePoints(first, options.set, options.count, options.minAlpha, options.metrics.seed);
+  std::vector<std::unique_ptr<const DirectFit>> directs(tables.size());
+  for (std::size_t t = 0; options.interpolation && t < tables.size(); ++t)
+    directs[t] = std::make_unique<DirectFit>(*tables[t], options.threads);
   std::vector<std::vector<PointResult>> results(tables.size(), std::vector<PointResult>(points.size()));
   std::size_t done = 0;
   parallelFor(points.size(), {.threads = options.threads}, [&](std::size_t i) {
@@ -148,16 +93,17 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
     const Target target(first.info().brdf, points[i].parameters, own.metrics);
     for (std::size_t t = 0; t < tables.size(); ++t) {
       const Table& table = *tables[t];
+      const DirectFit* const direct = directs[t].get();
       if (points[i].node && sameLayout(first, table)) {
         const std::vector<std::size_t> node = table.node(*points[i].node);
         const LobeParameters fitted = table.parameters(node);
         const bool same = sameParameters(fitted, points[i].parameters);
         results[t][i] =
-            same ? judge(table.entry(node), table, target, own)
-                 : judge(table.entry(node), table, Target(table.info().brdf, fitted, own.metrics), own);
+            same ? judge(table.entry(node), table, target, direct)
+                 : judge(table.entry(node), table, Target(table.info().brdf, fitted, own.metrics), direct);
         results[t][i].otherParameters = !same;
       } else {
-        results[t][i] = judge(table.fetch(points[i].parameters), table, target, own);
+        results[t][i] = judge(table.fetch(points[i].parameters), table, target, direct);
       }
     }
     return [&] {
@@ -169,6 +115,7 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   for (std::size_t t = 0; t < tables.size(); ++t) {
     Score& score = scores[t];
     score.points = points.size();
+    if (directs[t]) score.notes = directs[t]->notes();
     for (std::size_t i = 0; i < points.size(); ++i) {
       const PointResult& r = results[t][i];
       score.all.push_back({r.parameters, r.metrics});

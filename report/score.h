@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "report/metrics.h"
@@ -15,7 +16,7 @@ struct ScoreOptions {
   std::size_t count = 512;  ///< points; 0: all nodes
   double minAlpha = 0.0;    ///< leave out points with alpha below
   MetricOptions metrics;
-  /// Also fit each point directly, as the table's provenance says it was fitted, for the ratio.
+  /// Also fit each point directly, as the table's provenance says it was fitted, for the ratio: DirectFit.
   bool interpolation = false;
   int threads = 0;  ///< 0: as many as OpenMP offers
 };
@@ -34,6 +35,7 @@ struct Score {
       0;                     ///< nodes that this table has fitted at other parameters than the first one
   std::size_t singular = 0;  ///< fetched matrices without an inverse: all metrics of these points are missing
   std::size_t singularFloat32 = 0;  ///< without a usable inverse in float32
+  std::vector<std::string> notes;   ///< DirectFit::notes
 };
 
 /// Called after each finished point, never from two threads at once.

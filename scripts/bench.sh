@@ -43,6 +43,7 @@ done
 command -v python3 >/dev/null || { echo "bench.sh: needs python3" >&2; exit 1; }
 
 scripts/setup.sh
+cmake --build build --target ltcfit_bench
 mkdir -p out
 options=(--benchmark_repetitions="$repetitions" --benchmark_enable_random_interleaving=true
   --benchmark_min_time=0.1 --benchmark_out=out/bench_raw.json --benchmark_out_format=json)

@@ -58,7 +58,7 @@ grep -q 'yEven' list.glsl && ! grep -q 'xEven' list.glsl || fail "the warp of li
 python3 - <<'PY' || fail "the cost in the summary"
 import json
 lookup = json.load(open('summary.json'))['lookup']
-assert lookup['fetches'] == 6 and 100 < lookup['operations'] < lookup['operations_expanded'] < 300 and lookup['bytes'] == 3 * 3 * 4 * 3 * 3 * 4 * 2, lookup
+assert lookup['fetches'] == 6 and lookup['bytes'] == 3 * 3 * 4 * 3 * 3 * 4 * 2, lookup
 PY
 fit knots.json --axes theta=knots:0:40:70:90
 python3 - <<'PY' || fail "the knots"

@@ -1,6 +1,5 @@
 # scripts/bench_compare.py on results whose answer is known, on bad input, and on what the benchmark program writes.
 . "$(dirname "$0")/common.sh" "$@"
-command -v python3 >/dev/null || { echo "SKIPPED: need python3"; exit 77; }
 bench() { python3 "$source_dir/scripts/bench_compare.py" "$@" >out.txt 2>message.txt; }
 
 # Nine repetitions that spread by 2 % (interquartile range) about a median: uncertainty of a ratio 4 %.

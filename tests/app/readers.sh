@@ -13,6 +13,6 @@ for program in "$python" node nvddsinfo glslangValidator; do
     exit 77
   fi
 done
-[ -d "$build_web/node_modules" ] || { echo "SKIPPED: the npm packages are not installed in $build_web"; exit 77; }
+bash "$source_dir/tests/web/install.sh" "$source_dir" "$build_web" check || exit $?
 "$python" "$source_dir/tests/app/readers.py" "$ltcfit" "$source_dir" "$build_web" || fail "a reader disagrees"
 finish

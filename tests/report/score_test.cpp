@@ -94,8 +94,9 @@ TEST(Score, InterpolationRatioFitsAsTheTableWasFitted) {
     options.interpolation = true;
     options.metrics.lights = 4;
     const Score nodes = scoreTables({&table}, options)[0];
-    // the seed of the direct fit is another; an L3 fit would give 0.8, a sliced-Wasserstein one 1.07
-    EXPECT_NEAR(of(nodes, Metric::kInterpolationRatio).p50, 1.0, 0.02) << name;
+    // other builds round otherwise; an L3 fit would give 0.8, a sliced-Wasserstein one 1.07
+    EXPECT_NEAR(of(nodes, Metric::kInterpolationRatio).mean, 1.0, 0.01) << name;
+    EXPECT_NEAR(of(nodes, Metric::kInterpolationRatio).max, 1.0, 0.01) << name;
   }
 }
 

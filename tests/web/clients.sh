@@ -8,7 +8,7 @@ pictures=${4:-$build_web/pictures}
 web=$source_dir/tests/web
 
 . "$web/chromium.sh"
-bash "$web/install.sh" "$source_dir" "$build_web" || exit $?
+bash "$web/install.sh" "$source_dir" "$build_web" check || exit $?
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -11,7 +11,7 @@ pictures=${6:-$build_web/pictures}
 web=$source_dir/tests/web
 
 . "$web/chromium.sh"
-bash "$web/install.sh" "$source_dir" "$build_web" || exit $?
+bash "$web/install.sh" "$source_dir" "$build_web" check || exit $?
 
 if [ ! -s "$charts" ]; then
   echo "SKIPPED: built without the charting library; there is no page without it"
