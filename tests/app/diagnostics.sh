@@ -29,7 +29,7 @@ score=(score light.json --points off-grid --count 100)
 "$ltcfit" "${score[@]}" > score.txt || fail "the score itself"
 
 # same NAME HOW: the table is there and the same
-same() { cmp -s "$1.json" made.json || fail "$1, $2: no table, or another one"; rm -f made.json; }
+same() { cmp -s "$1.json" made.json || fail "$1, $2: no table, or another one"; rm -f made.json*; }
 python3 gone.py terminal "$ltcfit" "${light[@]}" -o made.json || fail "light, the terminal gone"; same light "terminal gone"
 python3 gone.py terminal "$ltcfit" "${l3[@]}" -o made.json || fail "l3, the terminal gone"; same l3 "terminal gone"
 python3 gone.py terminal "$ltcfit" "${score[@]}" --report made.csv || fail "score, the terminal gone"
