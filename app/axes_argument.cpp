@@ -7,14 +7,16 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <stdexcept>
 #include <vector>
+
+#include "base/refusal.h"
+#include "export/atomic_file.h"
 
 namespace ltcfit::app {
 namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& what) {
-  throw std::invalid_argument(fmt::format("--axes '{}': {}", text, what));
+  throw InputError(fmt::format("--axes '{}': {}", text, what));
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -51,7 +53,7 @@ NodePlacement placement(std::string_view axis, const std::string& text, const st
   }
   try {
     out.map = axisMapFromName(parts[0]);
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     refuse(whole,
            fmt::format("'{}' is none of the maps linear, sqrt, sqrt-one-minus-cos and knots", parts[0]));
   }

@@ -1,7 +1,7 @@
 // What the Chebyshev form of a table loses, in words.
 #pragma once
 
-#include <cstdio>
+#include <string>
 
 #include "ltc/chebyshev_fit.h"
 
@@ -9,7 +9,7 @@ namespace ltcfit::app {
 
 /// A line on how far the form is from the table at its nodes. `expanded` is the form's own table; `measured`:
 /// also the errors of both against the lobes, off-grid, as `ltcfit score` has them.
-void printChebyshevSummary(std::FILE* out, const Table& table, const Table& expanded,
-                           const ChebyshevDifference& difference, bool measured);
+std::string chebyshevSummary(const Table& table, const Table& expanded, const ChebyshevDifference& difference,
+                             bool measured);
 
 }  // namespace ltcfit::app

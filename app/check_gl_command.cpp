@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/paths.h"
 #include "app/progress.h"
+#include "app/shell_quoted.h"
 #include "base/angles.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
@@ -80,9 +81,9 @@ ShadingCheckOptions toOptions(const CheckGlArguments& a) {
 
 // Every option that a figure follows from.
 std::string commandOf(const CheckGlArguments& a) {
-  std::string out = fmt::format("ltcfit check-gl {}", fileName(a.table));
-  if (!a.against.empty()) out += fmt::format(" --against {}", fileName(a.against));
-  if (!a.light.empty()) out += fmt::format(" --light {}", a.light);
+  std::string out = fmt::format("ltcfit check-gl {}", shellFileName(a.table));
+  if (!a.against.empty()) out += fmt::format(" --against {}", shellFileName(a.against));
+  if (!a.light.empty()) out += fmt::format(" --light {}", shellQuoted(a.light));
   if (a.alphaX > 0.0) out += fmt::format(" --alpha-x {}", a.alphaX);
   if (a.alphaY > 0.0) out += fmt::format(" --alpha-y {}", a.alphaY);
   if (a.angle) out += fmt::format(" --angle {}", *a.angle);

@@ -5,14 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 
-namespace ltcfit::app {
+#include "app/exit_codes.h"
 
-/// Exit codes: part of the interface (README).
-inline constexpr int kExitOk = 0;
-inline constexpr int kExitFailure = 1;  ///< I/O or run-time failure
-inline constexpr int kExitBadInput =
-    2;  ///< bad option, or a file that is missing, damaged or of the wrong kind
-inline constexpr int kExitQuality = 3;  ///< a quality gate failed: unusable entries
+namespace ltcfit::app {
 
 /// Seeds go into JSON, whose readers keep 53 bits.
 inline constexpr std::int64_t kLargestSeed = std::int64_t{1} << 53;

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "base/angles.h"
+#include "base/diagnostics.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/compare.h"
@@ -103,7 +104,7 @@ int compare(const CompareArguments& a) {
                       difference.sw1.max <= *a.tolerance && difference.between.max <= *a.tolerance &&
                       (difference.norm.count == 0 || difference.norm.max <= *a.tolerance) &&
                       (difference.fresnel.count == 0 || difference.fresnel.max <= *a.tolerance);
-  if (!within) fmt::print(stderr, "ltcfit: the tables differ by more than {}\n", *a.tolerance);
+  if (!within) complain(fmt::format("the tables differ by more than {}", *a.tolerance));
   return within ? kExitOk : kExitQuality;
 }
 

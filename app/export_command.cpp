@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <system_error>
 
 #include "app/chebyshev_summary.h"
 #include "app/commands.h"
 #include "app/half_summary.h"
+#include "app/notes.h"
+#include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/chebyshev_file.h"
 #include "export/formats.h"
@@ -91,25 +93,26 @@ void placeFiles(const ExportArguments& a, Written& w) {
   }
 }
 
-void writeFiles(const ExportArguments& a, const Table& table, const Written& w) {
-  // what goes to a stream is not mixed with notes
-  std::FILE* const notes = isStream(w.paths[0]) ? stderr : stdout;
-  for (std::size_t i = 0; i < w.paths.size(); ++i) {
-    writeFileAtomically(w.paths[i], w.result.files[i].bytes);
-    if (!a.quiet) fmt::print(notes, "wrote {} ({} bytes)\n", w.paths[i], w.result.files[i].bytes.size());
-  }
-  for (const std::string& warning : w.result.warnings) fmt::print(stderr, "ltcfit: warning: {}\n", warning);
+void writeFiles(const Written& w) {
+  for (std::size_t i = 0; i < w.paths.size(); ++i) writeFileAtomically(w.paths[i], w.result.files[i].bytes);
+}
+
+// After all files are written: a full stdout leaves none of them out.
+void printWritten(const ExportArguments& a, const Table& table, const Written& w) {
+  for (const std::string& warning : w.result.warnings) complain("warning: " + warning);
   if (a.quiet) return;
-  if (w.result.chebyshev) {
-    printChebyshevSummary(notes, table, *w.result.table, *w.result.chebyshev, a.report);
-  } else {
-    printHalfSummary(notes, w.result.table.value_or(table), w.result.half, a.report ? kWorstNodes : 0);
-  }
+  std::string text;
+  for (std::size_t i = 0; i < w.paths.size(); ++i)
+    text += fmt::format("wrote {} ({} bytes)\n", w.paths[i], w.result.files[i].bytes.size());
+  text += w.result.chebyshev
+              ? chebyshevSummary(table, *w.result.table, *w.result.chebyshev, a.report)
+              : halfSummary(w.result.table.value_or(table), w.result.half, a.report ? kWorstNodes : 0);
+  printNotes(isStream(w.paths[0]) ? NotesTo::kStderr : NotesTo::kStdout, text);
 }
 
 int exportAllProfiles(const ExportArguments& a, const Table& table) {
   std::vector<Written> all;
-  std::vector<std::string> folders;
+  std::string leftOut;
   for (const Profile& profile : profiles()) {
     const bool fits = fitsProfile(table, profile);
     const bool canFit = a.resample && table.isIsotropic() == profile.axes.isotropic;
@@ -121,11 +124,11 @@ int exportAllProfiles(const ExportArguments& a, const Table& table) {
                   {}};
         all.push_back(std::move(w));
         continue;
-      } catch (const std::invalid_argument& error) {
+      } catch (const Refusal& error) {
         why = error.what();
       }
     }
-    if (!a.quiet) fmt::print("left out {}: {}\n", profile.name, why);
+    leftOut += fmt::format("left out {}: {}\n", profile.name, why);
   }
   if (all.empty()) throw InputError(a.input + ": fits none of the profiles");
   makeFolder(a.output);
@@ -133,7 +136,9 @@ int exportAllProfiles(const ExportArguments& a, const Table& table) {
     makeFolder(w.folder);
     placeFiles(a, w);
   }
-  for (const Written& w : all) writeFiles(a, table, w);
+  for (const Written& w : all) writeFiles(w);
+  if (!a.quiet) printNotes(NotesTo::kStdout, leftOut);
+  for (const Written& w : all) printWritten(a, table, w);
   return kExitOk;
 }
 
@@ -155,7 +160,8 @@ int exportProfiles(const ExportArguments& a, const Table& table) {
             {}};
   if (folder) makeFolder(a.output);
   placeFiles(a, w);
-  writeFiles(a, table, w);
+  writeFiles(w);
+  printWritten(a, table, w);
   return kExitOk;
 }
 
@@ -196,7 +202,8 @@ int exportFormat(const ExportArguments& a, const Table& table) {
   if (isStream(a.output) && w.result.files[0].name != path.filename())
     throw InputError(a.output + ": this export has several files, which a stream cannot hold");
   placeFiles(a, w);
-  writeFiles(a, table, w);
+  writeFiles(w);
+  printWritten(a, table, w);
   return kExitOk;
 }
 
@@ -220,7 +227,7 @@ int runExport(const ExportArguments& a) {
   const Table table = readTable(a.input);
   try {
     return a.profile.empty() ? exportFormat(a, table) : exportProfiles(a, table);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(a.input + ": " + error.what());
   }
 }

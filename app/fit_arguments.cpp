@@ -6,13 +6,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 #include <variant>
 
 #include "app/axes_argument.h"
 #include "app/commands.h"
 #include "app/refinement_run.h"
+#include "app/shell_quoted.h"
 #include "base/angles.h"
+#include "export/atomic_file.h"
 #include "fit/fit_provenance.h"
 
 namespace ltcfit::app {
@@ -27,7 +28,7 @@ LobeFitOptions defaultsOf(const FitArguments& a, std::string_view fitter) {
 }
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw std::invalid_argument(message);
+  throw InputError(message);
 }
 
 }  // namespace
@@ -248,8 +249,8 @@ Provenance makeProvenance(const FitArguments& a) {
   for (const auto& [name, value] : p.options) {
     std::string flag = name;
     std::replace(flag.begin(), flag.end(), '_', '-');
-    p.command +=
-        fmt::format(" --{} {}", flag, std::visit([](const auto& v) { return fmt::format("{}", v); }, value));
+    p.command += fmt::format(
+        " --{} {}", flag, shellQuoted(std::visit([](const auto& v) { return fmt::format("{}", v); }, value)));
   }
   p.command += fmt::format(" --seed {}", a.seed);
   return p;

@@ -50,9 +50,9 @@ void addFitterOptions(CLI::App& command, FitArguments& a);
 /// Adds those that only tables have.
 void addTableOptions(CLI::App& command, FitArguments& a);
 
-/// Throws std::invalid_argument for options that do not go together or are out of range.
+/// Throws InputError for options that do not go together or are out of range.
 void checkFitArguments(const CLI::App& command, const FitArguments& a);
-/// "64x32" to {64, 32}, `count` numbers; std::invalid_argument otherwise.
+/// "64x32" to {64, 32}, `count` numbers; InputError otherwise.
 std::vector<std::size_t> parseSize(const std::string& text, std::size_t count);
 /// The preset asked for, or the fitter's default.
 std::string presetOf(const FitArguments& a);

@@ -31,7 +31,7 @@ void checkOutputs(const FitArguments& a) {
 template <class Options>
 Options valid(Options options) {
   std::string error;
-  if (!options.isValid(&error)) throw std::invalid_argument(error);
+  if (!options.isValid(&error)) throw InputError(error);
   return options;
 }
 

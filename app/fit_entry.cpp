@@ -5,11 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/fit_runs.h"
 #include "app/fit_summary.h"
+#include "base/diagnostics.h"
+#include "export/atomic_file.h"
 #include "fit/moment_start.h"
 #include "fit/target_lobe.h"
 #include "ltc/ltc.h"
@@ -34,14 +35,14 @@ double radians(double degrees) {
 
 int fitEntryCommand(const EntryArguments& a) {
   if (!std::isfinite(a.alphaX + a.alphaY + a.theta + a.phi))  // which CLI11's ranges let through
-    throw std::invalid_argument("--alpha-x, --alpha-y, --theta and --phi must be numbers");
+    throw InputError("--alpha-x, --alpha-y, --theta and --phi must be numbers");
   const LobeParameters p{a.alphaX, a.alphaY > 0.0 ? a.alphaY : a.alphaX, radians(a.theta), radians(a.phi)};
   const TableFitOptions options = toFitOptions(a.fit);
   const Stopwatch watch;
   JobResult r = fitJob({p, familyOf(p)}, "ggx", options);
   const Times times = watch.elapsed();
   if (!r.fitted) {
-    fmt::print(stderr, "ltcfit: the fit ended with a matrix without an inverse\n");
+    complain("the fit ended with a matrix without an inverse");
     return kExitQuality;
   }
   r.m = projectOnFamily(r.m, familyOf(p));

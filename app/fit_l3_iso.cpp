@@ -70,7 +70,7 @@ int fitIsotropicL3(const FitArguments& a, const IsotropicTableOptions& tableOpti
   options.entry = toFitOptions(a).l3;
   options.threads = a.threads;
   std::string error;
-  if (!options.isValid(&error)) throw std::invalid_argument(error);
+  if (!options.isValid(&error)) throw InputError(error);
 
   checkRefinement(a);
   const Stopwatch watch;

@@ -11,6 +11,9 @@
 #include "app/commands.h"
 #include "app/fit_summary.h"
 #include "app/progress.h"
+#include "app/shell_quoted.h"
+#include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/read_table.h"
@@ -47,11 +50,6 @@ std::vector<std::string> outputsOf(const std::string& output, const ScenePlan& p
   return out;
 }
 
-// The name of a file in a command that stays true when folders move.
-std::string nameOf(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
-
 Provenance provenanceOf(const PlanFitArguments& a, const ScenePlan& plan, const TailoredTable& made,
                         bool isotropic) {
   const PlanRequest& r = plan.request;
@@ -59,8 +57,8 @@ Provenance provenanceOf(const PlanFitArguments& a, const ScenePlan& plan, const 
   p.tool = "ltcfit";
   p.toolVersion = LTCFIT_VERSION;
   p.seed = r.seed;
-  p.command =
-      a.plan.empty() ? "ltcfit fit --scene " + nameOf(a.scene.scene) : "ltcfit fit --plan " + nameOf(a.plan);
+  p.command = a.plan.empty() ? "ltcfit fit --scene " + shellFileName(a.scene.scene)
+                             : "ltcfit fit --plan " + shellFileName(a.plan);
   if (a.plan.empty()) {  // a plan says the rest itself
     if (r.maxError > 0.0) p.command += fmt::format(" --max-error {}", r.maxError);
     if (r.maxBytes > 0) p.command += fmt::format(" --max-bytes {}", r.maxBytes);
@@ -217,24 +215,23 @@ Made make(const PlanFitArguments& a, const std::vector<Table>& given, const Scen
   return made;
 }
 
-void complain(const Made& made, const PlannedTable& planned, std::size_t maxBytes) {
+void explainRefusal(const Made& made, const PlannedTable& planned, std::size_t maxBytes) {
   const std::string within = maxBytes > 0 ? fmt::format(" within {}", bytesText(maxBytes)) : std::string();
   const double bound = planned.maxError;
   const char* const kind = kindName(planned.distribution);
   if (made.table.kept) {
-    fmt::print(
-        stderr,
-        "ltcfit: {} table: at look-ups that nothing was fitted to the mean error is {:.6f}, above {:g}: no "
-        "table was written\n",
-        kind, made.verification->tailored.mean, bound);
+    complain(fmt::format(
+        "{} table: at look-ups that nothing was fitted to the mean error is {:.6f}, above {:g}: no "
+        "table was written",
+        kind, made.verification->tailored.mean, bound));
   } else if (!made.table.table) {
-    fmt::print(stderr, "ltcfit: {} table: there is none{}: no table was written\n", kind, within);
+    complain(fmt::format("{} table: there is none{}: no table was written", kind, within));
   } else {
-    fmt::print(stderr,
-               "ltcfit: {} table: a mean error of {:g} is out of reach{}; the best one tried has {:.2g} ({} "
-               "nodes, {}): no table was written\n",
-               kind, bound, within, made.table.step.error.mean, nodesText(made.table.step.design.nodes),
-               bytesText(made.table.step.bytes));
+    complain(
+        fmt::format("{} table: a mean error of {:g} is out of reach{}; the best one tried has {:.2g} ({} "
+                    "nodes, {}): no table was written",
+                    kind, bound, within, made.table.step.error.mean, nodesText(made.table.step.design.nodes),
+                    bytesText(made.table.step.bytes)));
   }
 }
 
@@ -242,21 +239,21 @@ void complain(const Made& made, const PlannedTable& planned, std::size_t maxByte
 
 int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
   if (!a.plan.empty() && !a.scene.scene.empty())
-    throw std::invalid_argument("fit: --plan and --scene exclude each other");
+    throw InputError("fit: --plan and --scene exclude each other");
   if (a.plan.empty() && a.scene.scene.empty())
-    throw std::invalid_argument("fit: need --plan or --scene, or a subcommand; --help lists all");
-  if (a.output.empty()) throw std::invalid_argument("--output is required");
-  if (!a.full.empty() && !a.verify) throw std::invalid_argument("--full needs --verify");
+    throw InputError("fit: need --plan or --scene, or a subcommand; --help lists all");
+  if (a.output.empty()) throw InputError("--output is required");
+  if (!a.full.empty() && !a.verify) throw InputError("--full needs --verify");
   if (!a.plan.empty()) {
     for (const char* option :
          {"--max-error", "--max-bytes", "--margin", "--alpha-floor", "--lights", "--views", "--seed"})
       if (command.count(option) > 0)
-        throw std::invalid_argument(std::string(option) + " needs --scene: the plan says it (field request)");
+        throw InputError(std::string(option) + " needs --scene: the plan says it (field request)");
   }
   checkWritable(a.output);
   const ScenePlan plan = a.plan.empty() ? planOf(command, a.scene) : planFromJson(readFile(a.plan), a.plan);
   if (plan.tables.empty()) {
-    fmt::print(stderr, "ltcfit: {} has no specular lobes to make tables for: none was written\n", plan.scene);
+    complain(fmt::format("{} has no specular lobes to make tables for: none was written", plan.scene));
     return kExitOk;
   }
   std::vector<Table> given;
@@ -271,31 +268,34 @@ int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
   std::size_t left = plan.request.maxBytes;
   int exitCode = kExitOk;
   std::vector<std::pair<std::string, std::string>> files;
+  std::vector<Made> kept;
   for (std::size_t i = 0; i < plan.tables.size() && exitCode == kExitOk; ++i) {
     const PlannedTable& planned = plan.tables[i];
     const double bound = planned.maxError;
     // where bytes alone count, the plan has shared them out
     const std::size_t maxBytes = bound == 0.0 ? planned.maxBytes : left;
-    const Made made = make(a, given, plan, planned, maxBytes);
+    Made made = make(a, given, plan, planned, maxBytes);
     const bool verified = !made.verification || bound == 0.0 || made.verification->holds(bound);
     if (a.scene.json) json["tables"].push_back(toJson(made, planned, outputs[i], bound));
     if (!made.table.kept || !verified) {
-      complain(made, planned, maxBytes);
+      explainRefusal(made, planned, maxBytes);
       exitCode = kExitQuality;
       break;
     }
-    if (!a.scene.json && !a.scene.quiet) printText(made, planned, bound);
     if (left > 0) left = left > made.table.step.bytes ? left - made.table.step.bytes : 1;
     TableInfo info = made.table.table->info();
     info.provenance = provenanceOf(a, plan, made.table, planned.distribution.isotropic);
     files.emplace_back(outputs[i], tableToJson(Table(info, made.table.table->data())));
+    kept.push_back(std::move(made));
   }
   if (exitCode == kExitOk)
     for (const auto& [path, text] : files) writeFileAtomically(path, text);
   if (a.scene.json) {
     fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
-  } else if (!a.scene.quiet && exitCode == kExitOk) {
-    for (const std::string& output : outputs) fmt::print("wrote {}\n", output);
+  } else if (!a.scene.quiet) {
+    for (std::size_t i = 0; i < kept.size(); ++i) printText(kept[i], plan.tables[i], plan.tables[i].maxError);
+    if (exitCode == kExitOk)
+      for (const std::string& output : outputs) fmt::print("wrote {}\n", output);
   }
   return exitCode;
 }

@@ -5,9 +5,9 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "app/commands.h"
+#include "base/refusal.h"
 #include "export/packing.h"
 #include "export/shader_lookup.h"
 
@@ -50,7 +50,7 @@ LookupSummary summarizeLookup(const TableInfo& info) {
   try {
     makeShaderLookup(info, ShadingLanguage::kGlsl, "ltc");
     lookup.fetches = fetchesOf(info);
-  } catch (const std::invalid_argument& refusal) {
+  } catch (const Refusal& refusal) {
     lookup.refusal = refusal.what();
   }
   return lookup;

@@ -13,6 +13,8 @@
 #include "app/fit_runs.h"
 #include "app/fit_summary.h"
 #include "app/progress.h"
+#include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "fit/checkpoint.h"
 #include "report/statistics.h"
@@ -133,7 +135,7 @@ std::unique_ptr<Checkpoint> openCheckpoint(const FitArguments& a, const TablePla
   const std::string fingerprint = makeProvenance(a).command + ", ltcfit " LTCFIT_VERSION + kBuild;
   try {
     return std::make_unique<Checkpoint>(path, fingerprint, plan.jobs.size());
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(error.what());
   }
 }
@@ -142,17 +144,14 @@ std::unique_ptr<Checkpoint> openCheckpoint(const FitArguments& a, const TablePla
 
 int refuseUnusable(std::size_t unusable, const FitArguments& a) {
   if (unusable == 0) return kExitOk;
-  fmt::print(stderr,
-             "ltcfit: {} entries are unusable (no inverse in float32, or worse than no light): no table was "
-             "written{}\n",
-             unusable,
-             !a.reportPath.empty() ? ""
-             : isWarmStartedL3(a)  ? "; --report FILE.csv lists them"
-             : isStream(a.output)
-                 ? "; --report FILE.csv lists them"
-                 : fmt::format("; --resume --report FILE.csv lists them at once, without {}.part a "
-                               "run starts anew",
-                               a.output));
+  complain(fmt::format(
+      "{} entries are unusable (no inverse in float32, or worse than no light): no table was written{}",
+      unusable,
+      !a.reportPath.empty() ? ""
+      : isWarmStartedL3(a) || isStream(a.output)
+          ? "; --report FILE.csv lists them"
+          : fmt::format("; --resume --report FILE.csv lists them at once, without {}.part a run starts anew",
+                        a.output)));
   return kExitQuality;
 }
 
@@ -162,7 +161,7 @@ int fitTableCommand(const FitArguments& a, const TablePlan& plan) {
   try {
     // the axes, before the work and not after it
     const Table axes(plan.info, std::vector<float>(plan.nodes.size() * plan.info.channels.size(), 0.0f));
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(std::string("--axes, --theta-max or --alpha-floor: ") + error.what());
   }
   const std::unique_ptr<Checkpoint> checkpoint = openCheckpoint(a, plan);

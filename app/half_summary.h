@@ -1,14 +1,14 @@
 // What rounding to halves did to a table, for people.
 #pragma once
 
-#include <cstdio>
+#include <string>
 
 #include "export/half_table.h"
 
 namespace ltcfit::app {
 
-/// Prints to `out` one line, and the `worst` nodes that it moves most with their errors. Nothing for a table
+/// One line, and one for each of the `worst` nodes that it moves most, with their errors. Empty for a table
 /// of floats.
-void printHalfSummary(std::FILE* out, const Table& table, const HalfReport& report, int worst);
+std::string halfSummary(const Table& table, const HalfReport& report, int worst);
 
 }  // namespace ltcfit::app

@@ -1,27 +1,32 @@
 // ltcfit: fits Linearly Transformed Cosines to GGX and writes the tables that engines shade with.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/commands.h"
-#include "export/atomic_file.h"
+#include "app/failure.h"
+#include "base/diagnostics.h"
 
 namespace {
 
 using namespace ltcfit;
 using namespace ltcfit::app;
 
-// Without exceptions, unlike fmt::print: stderr may be closed or full, and the exit code must still be right.
-void complain(const std::string& message) {
-  std::fputs(("ltcfit: " + message + "\n").c_str(), stderr);
+// Opens the three standard descriptors that the caller has closed, the wrong way round: reading from the one
+// and writing to the others fails as before, but no file that is opened later gets their numbers, and then
+// what was meant for a terminal.
+void keepStandardDescriptors() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(fd, F_GETFD) < 0) ::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 void addCommands(CLI::App& app, CommandStatus& status) {
@@ -88,21 +93,16 @@ int run(int argc, char** argv) {
     } else {
       const std::vector<std::string> extra = app.remaining(true);
       const bool command = error.get_name() == "RequiredError" && !extra.empty();
-      complain(command ? unknownCommand(extra[0]) : std::string(error.what()) + "; --help lists what there is");
+      complain(command ? unknownCommand(extra[0])
+                       : std::string(error.what()) + "; --help lists what there is");
       return kExitBadInput;
     }
-  } catch (const InputError& error) {
-    complain(error.what());
-    return kExitBadInput;
-  } catch (const std::invalid_argument& error) {
-    complain(error.what());
-    return kExitBadInput;
-  } catch (const std::bad_alloc&) {
-    complain("out of memory");
-    return kExitFailure;
-  } catch (const std::exception& error) {
-    complain(error.what());
-    return kExitFailure;
+  } catch (...) {
+    const Failure failure = failureOf(std::current_exception());
+    // a print that failed has thrown, too
+    const bool output = std::ferror(stdout) != 0;
+    complain(output ? "cannot write to standard output: " + failure.message : failure.message);
+    return output ? kExitFailure : failure.exitCode;
   }
   // what was printed must have arrived: a full disk behind a redirection is a failure
   std::cout.flush();
@@ -116,5 +116,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepStandardDescriptors();
+  // A reader that has gone away is a write that fails: on stdout an exit code of 1, on stderr nothing.
+  std::signal(SIGPIPE, SIG_IGN);
   return run(argc, argv);
 }

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/metric_arguments.h"
 #include "app/progress.h"
+#include "app/shell_quoted.h"
 #include "export/atomic_file.h"
 #include "report/pareto.h"
 #include "report/pareto_json.h"
@@ -46,9 +47,9 @@ std::string commandOf(const ParetoArguments& a) {
   std::string out = fmt::format(
       "ltcfit pareto --table {} --entries {} --repeats {} --seed {} --samples {} --directions {} --quads {} "
       "--lights {}",
-      a.table, a.entries, a.repeats, a.seed, a.metrics.samples, a.metrics.directions, a.metrics.quads,
-      a.metrics.lights);
-  for (const std::string& fitter : a.fitters) out += " --fitter " + fitter;
+      shellQuoted(a.table), a.entries, a.repeats, a.seed, a.metrics.samples, a.metrics.directions,
+      a.metrics.quads, a.metrics.lights);
+  for (const std::string& fitter : a.fitters) out += " --fitter " + shellQuoted(fitter);
   return out;
 }
 

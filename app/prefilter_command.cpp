@@ -7,9 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 
 #include "app/commands.h"
+#include "app/notes.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/picture.h"
 #include "render/light_texture_file.h"
@@ -50,14 +51,14 @@ void print(const PrefilterArguments& a, const LinearPicture& picture, const Pref
     return;
   }
   if (a.quiet) return;
-  std::FILE* const notes = isStream(a.output) ? stderr : stdout;
-  fmt::print(notes, "{} x {} pixels -> {} x {} texels, {} levels, {}\n", picture.width, picture.height, size,
-             size, texture.levels.size(), a.floats ? "float" : "half");
-  fmt::print(notes,
-             "for ltcLightColour: margin = {}, lodScale = {:.9g}; made for a light of aspect = {:.6g}\n",
-             texture.margin, texture.lodScale, texture.aspect);
+  std::string notes = fmt::format(
+      "{} x {} pixels -> {} x {} texels, {} levels, {}\n"
+      "for ltcLightColour: margin = {}, lodScale = {:.9g}; made for a light of aspect = {:.6g}\n",
+      picture.width, picture.height, size, size, texture.levels.size(), a.floats ? "float" : "half",
+      texture.margin, texture.lodScale, texture.aspect);
   for (std::size_t i = 0; i < files.size(); ++i)
-    fmt::print(notes, "wrote {} ({} bytes)\n", paths[i], files[i].bytes.size());
+    notes += fmt::format("wrote {} ({} bytes)\n", paths[i], files[i].bytes.size());
+  printNotes(isStream(a.output) ? NotesTo::kStderr : NotesTo::kStdout, notes);
 }
 
 // Of the light: as told, or the picture's, since most lights show theirs undistorted.
@@ -91,7 +92,7 @@ int runPrefilter(const PrefilterArguments& a) {
     files = lightTextureFiles(toLightTextureFile(texture, a.floats ? Precision::kFloat : Precision::kHalf),
                               output.filename().string(),
                               a.uncompressed ? Ktx2Compression::kNone : Ktx2Compression::kZstd);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(a.input + ": " + error.what());
   }
   std::vector<std::string> paths;

@@ -4,8 +4,13 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace ltcfit::app {
+
+/// "WHAT: DONE of TOTAL (P %), S s left": the time left by the `elapsed` seconds that what is done took.
+/// Without it before anything is done.
+std::string progressText(std::string_view what, std::size_t done, std::size_t total, double elapsed);
 
 class Progress {
  public:

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/refinement_checkpoint.h"
+#include "app/shell_quoted.h"
+#include "base/diagnostics.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/little_endian.h"
@@ -57,8 +59,8 @@ Provenance provenanceOf(const Table& table, const RefinementSource& source,
     p.tool.assign("ltcfit");
     p.toolVersion.assign(LTCFIT_VERSION);
     p.seed = seed;
-    p.command =
-        fmt::format("ltcfit refine {} --points {} --iterations {}", source.name, o.points, o.iterations);
+    p.command = fmt::format("ltcfit refine {} --points {} --iterations {}", shellFileName(source.name),
+                            o.points, o.iterations);
     if (!usual) p.command += fmt::format(" --stored-as {}", matrixStorageName(request.stores));
     if (request.keepScale) p.command += " --keep-scale";
     p.command += fmt::format(" --seed {}", seed);
@@ -130,7 +132,7 @@ RefinementOptions refinementOptions(bool isotropic, int points, int iterations, 
   o.seed = static_cast<std::uint64_t>(seed);
   o.threads = threads;
   std::string error;
-  if (!o.isValid(&error)) throw std::invalid_argument(fmt::format("--{}{}", prefix, error));
+  if (!o.isValid(&error)) throw InputError(fmt::format("--{}{}", prefix, error));
   return o;
 }
 
@@ -162,15 +164,15 @@ RefinementRun refineToFile(const Table& table, const RefinementSource& source,
     if (run.result.unusable == 0) writeFileAtomically(output, tableToJson(run.result.table));
     if (checkpoint) checkpoint->remove();
     return run;
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError((source.name.empty() ? std::string("--refine") : source.name) + ": " + error.what());
   }
 }
 
 int refuseUnusableRefinement(const RefinementRun& run) {
   if (run.result.unusable == 0) return kExitOk;
-  fmt::print(stderr, "ltcfit: refined, {} nodes are unusable (no inverse in float32): no table was written\n",
-             run.result.unusable);
+  complain(fmt::format("refined, {} nodes are unusable (no inverse in float32): no table was written",
+                       run.result.unusable));
   return kExitQuality;
 }
 

@@ -30,7 +30,7 @@ struct RefinementSource {
 /// M for anisotropic tables, Minv for isotropic ones: as the textures of engines hold them.
 MatrixStorage usualStorage(bool isotropic);
 
-/// The defaults of a kind of table with the numbers given, valid; throws std::invalid_argument naming the
+/// The defaults of a kind of table with the numbers given, valid; throws InputError naming the
 /// option as
 /// "--`prefix`NAME", its value and its range.
 RefinementOptions refinementOptions(bool isotropic, int points, int iterations, std::int64_t seed,

@@ -10,9 +10,12 @@
 #include <stdexcept>
 
 #include "app/commands.h"
-#include "app/paths.h"
 #include "app/metric_arguments.h"
+#include "app/notes.h"
+#include "app/paths.h"
 #include "app/progress.h"
+#include "app/shell_quoted.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/measurement_files.h"
@@ -81,7 +84,7 @@ Table asRead(const ReportArguments& a, const std::string& path, const Table& fil
   if (info.stores == stores && info.normalization == normalization) return file;
   try {
     return storedAs(file, stores, normalization);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     if (shaders) return file;
     throw InputError(path + ": --stored-as " + a.storedAs + ": " + error.what());
   }
@@ -160,14 +163,14 @@ Json readShading(const ReportArguments& a) {
 // The same file again, from wherever the inputs lie: names without folders, no threads.
 std::string commandOf(const ReportArguments& a) {
   std::string out = "ltcfit report";
-  for (const std::string& path : a.tables) out += " " + fileName(path);
-  for (const std::string& path : a.against) out += " --against " + fileName(path);
-  for (const std::string& path : a.pareto) out += " --pareto " + fileName(path);
-  for (const std::string& path : a.shading) out += " --shading " + fileName(path);
-  if (!a.stability.empty()) out += " --stability " + fileName(a.stability);
+  for (const std::string& path : a.tables) out += " " + shellFileName(path);
+  for (const std::string& path : a.against) out += " --against " + shellFileName(path);
+  for (const std::string& path : a.pareto) out += " --pareto " + shellFileName(path);
+  for (const std::string& path : a.shading) out += " --shading " + shellFileName(path);
+  if (!a.stability.empty()) out += " --stability " + shellFileName(a.stability);
   const ReportArguments standard;
   const auto option = [&](const char* name, const auto& value, const auto& usual) {
-    if (value != usual) out += fmt::format(" --{} {}", name, value);
+    if (value != usual) out += fmt::format(" --{} {}", name, shellQuoted(fmt::format("{}", value)));
   };
   option("points", a.points, standard.points);
   option("stored-as", a.storedAs, standard.storedAs);
@@ -180,17 +183,18 @@ std::string commandOf(const ReportArguments& a) {
 }
 
 // --quiet leaves out the summary, but not why a gate fails.
-void printVerdicts(const ReportArguments& a, const std::string& name, const std::vector<Verdict>& verdicts) {
+std::string verdictLines(const ReportArguments& a, const std::string& name,
+                         const std::vector<Verdict>& verdicts) {
   const auto passed =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passes(); });
-  if (a.quiet && (!a.gate || passed == std::ssize(verdicts))) return;
-  std::FILE* const out = a.quiet ? stderr : stdout;
-  fmt::print(out, "{}: {} of {} limits are kept\n", name, passed, verdicts.size());
+  if (a.quiet && (!a.gate || passed == std::ssize(verdicts))) return {};
+  std::string out = fmt::format("{}: {} of {} limits are kept\n", name, passed, verdicts.size());
   for (const Verdict& v : verdicts) {
     if (!v.passes())
-      fmt::print(out, "  not kept: {}: {:.4g}, limit {:.4g}{}{}\n", v.what, v.value, v.limit,
-                 v.detail.empty() ? "" : "; ", v.detail);
+      out += fmt::format("  not kept: {}: {:.4g}, limit {:.4g}{}{}\n", v.what, v.value, v.limit,
+                         v.detail.empty() ? "" : "; ", v.detail);
   }
+  return out;
 }
 
 int report(const ReportArguments& a) {
@@ -217,6 +221,7 @@ int report(const ReportArguments& a) {
 
   Json images = Json::object();
   std::string title;
+  std::string notes;
   bool kept = true;
   for (const std::vector<ReportTable>& group : groups) {
     Progress progress(group[0].name, a.quiet);
@@ -226,7 +231,7 @@ int report(const ReportArguments& a) {
     title += (title.empty() ? "" : ", ") + group[0].name;
     kept = kept && std::all_of(result.verdicts.begin(), result.verdicts.end(),
                                [](const Verdict& v) { return v.passes(); });
-    printVerdicts(a, group[0].name, result.verdicts);
+    notes += verdictLines(a, group[0].name, result.verdicts);
   }
   const auto text = [](const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -235,7 +240,8 @@ int report(const ReportArguments& a) {
   // the page first: it is the larger one, and where it does not fit, the old pair stays
   writeFileAtomically(a.output, fillPage(page, title, json, text(images)));
   writeFileAtomically(jsonPath(a.output), json + "\n");
-  if (!a.quiet) fmt::print("{}, {}\n", a.output, jsonPath(a.output));
+  if (!a.quiet) notes += fmt::format("{}, {}\n", a.output, jsonPath(a.output));
+  printNotes(a.quiet ? NotesTo::kStderr : NotesTo::kStdout, notes);
   return a.gate && !kept ? kExitQuality : kExitOk;
 }
 

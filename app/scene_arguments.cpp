@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <numbers>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/progress.h"
 #include "base/angles.h"
+#include "export/atomic_file.h"
 #include "scene/read_scene.h"
 
 namespace ltcfit::app {
@@ -84,13 +84,13 @@ ScenePlan planOf(const CLI::App& command, const SceneArguments& a) {
     request.maxError = 0.0;
   request.noStricterThanFull = command.count("--max-error") == 0 && request.maxError > 0.0;
   std::string error;
-  if (!request.isValid(&error)) throw std::invalid_argument("--" + error);
+  if (!request.isValid(&error)) throw InputError("--" + error);
   SceneUse use = readScene(a.scene);
   if (!a.lights.empty()) use.lights = lightsOf(a.lights);
   if (!a.views.empty()) {
-    if (!(a.views[0] <= a.views[1]))
-      throw std::invalid_argument("--views: need two angles, the lower one first");
-    use.views = {a.views[0] * kRadiansPerDegree, std::min(a.views[1] * kRadiansPerDegree, 0.5 * std::numbers::pi)};
+    if (!(a.views[0] <= a.views[1])) throw InputError("--views: need two angles, the lower one first");
+    use.views = {a.views[0] * kRadiansPerDegree,
+                 std::min(a.views[1] * kRadiansPerDegree, 0.5 * std::numbers::pi)};
   }
   Progress progress("plan", a.quiet);
   return planScene(use, request, a.threads,

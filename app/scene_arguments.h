@@ -24,7 +24,7 @@ struct SceneArguments {
 /// --lights, --views.
 void addPlanOptions(CLI::App& command, SceneArguments& a);
 
-/// Reads the scene and makes its plan, with a progress line. InputError, std::invalid_argument.
+/// Reads the scene and makes its plan, with a progress line. InputError, Refusal.
 ScenePlan planOf(const CLI::App& command, const SceneArguments& a);
 
 }  // namespace ltcfit::app

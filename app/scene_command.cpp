@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/scene_arguments.h"
+#include "app/shell_quoted.h"
 #include "export/atomic_file.h"
 #include "tailor/plan_json.h"
 #include "tailor/plan_text.h"
@@ -35,7 +36,7 @@ int plan(const CLI::App& command, const Arguments& a) {
       fmt::print("wrote {}{}\n", a.output,
                  plan.tables.empty() || !reachable
                      ? ""
-                     : fmt::format("; next: ltcfit fit --plan {} -o NAME.json", a.output));
+                     : fmt::format("; next: ltcfit fit --plan {} -o NAME.json", shellQuoted(a.output)));
   }
   return reachable ? kExitOk : kExitQuality;
 }

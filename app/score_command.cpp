@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/metric_arguments.h"
 #include "app/progress.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/score.h"
@@ -42,7 +43,7 @@ Table readForScore(const ScoreArguments& a, const std::string& path) {
     return ltcfit::storedAs(
         table, inverse ? MatrixStorage::kMinv : MatrixStorage::kM,
         inverse ? MatrixNormalization::kMiddleElement : MatrixNormalization::kThirdColumnUnit);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(path + ": --stored-as " + a.storedAs + ": " + error.what());
   }
 }

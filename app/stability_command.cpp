@@ -7,10 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/shell_quoted.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "report/stability_json.h"
 #include "report/stability_set.h"
@@ -124,7 +125,7 @@ int stabilityCommand(const StabilityArguments& a) {
   StabilitySet set;
   try {
     set = a.set.empty() ? defaultStabilitySet() : parseStabilitySet(readFile(a.set, kLargestSetFile));
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(fmt::format("{}: {}", a.set, error.what()));
   }
   options.lobes = lobesOf(set);
@@ -146,8 +147,8 @@ int stabilityCommand(const StabilityArguments& a) {
         runStability(options, [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   }
   std::string command("ltcfit stability");
-  if (!a.set.empty()) command += " --set " + std::filesystem::path(a.set).filename().string();
-  for (const std::string& name : a.fitters) command += " --fitter " + name;
+  if (!a.set.empty()) command += " --set " + shellFileName(a.set);
+  for (const std::string& name : a.fitters) command += " --fitter " + shellQuoted(name);
   if (a.seeds != StabilityOptions{}.seeds) command += fmt::format(" --seeds {}", a.seeds);
   if (a.full) command += " --full";
   const std::string text = stabilityJson(result, options, set.name, command).dump(1) + "\n";

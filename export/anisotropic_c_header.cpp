@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/c_text.h"
 #include "export/packing.h"
 #include "export/texture_metadata.h"
@@ -12,7 +12,8 @@
 namespace ltcfit {
 namespace {
 
-std::string anisotropicComment(const Table& table, const std::string& name, const std::vector<std::string>& channels) {
+std::string anisotropicComment(const Table& table, const std::string& name,
+                               const std::vector<std::string>& channels) {
   const TableInfo& info = table.info();
   std::size_t negative = 0;
   for (std::size_t i = 0; i < table.nodeCount(); ++i)
@@ -57,8 +58,7 @@ std::string anisotropicComment(const Table& table, const std::string& name, cons
 }  // namespace
 
 std::string tableToAnisotropicCHeader(const Table& table, const std::string& name) {
-  if (table.isIsotropic())
-    throw std::invalid_argument("needs an anisotropic table (alpha, lambda, theta, phi)");
+  if (table.isIsotropic()) throw Refusal("needs an anisotropic table (alpha, lambda, theta, phi)");
   const std::vector<std::string> channels = amplitudesOf(table.info());
   Packing packing{
       MatrixStorage::kM,

@@ -12,7 +12,7 @@ namespace ltcfit {
 ///   NAME_amplitude[alpha][lambda][theta][phi][2]  (norm, Fresnel); [1] of a table that has one of these
 ///                                                 channels, none without.
 /// The demo of 2022 and its users call the first `anisomats`. `name` becomes an identifier: other characters
-/// are turned into '_'. Throws std::invalid_argument for an isotropic table or one without an inverse
+/// are turned into '_'. Throws Refusal for an isotropic table or one without an inverse
 /// somewhere.
 std::string tableToAnisotropicCHeader(const Table& table, const std::string& name);
 

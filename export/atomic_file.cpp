@@ -9,56 +9,28 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
+
+#include "export/descriptor.h"
+#include "export/temporary_file.h"
 
 namespace ltcfit {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& path, const char* what) {
-  throw FileError(path + ": " + what + ": " + std::strerror(errno));
-}
-
 fs::path folderOf(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   return folder.empty() ? fs::path(".") : folder;
 }
 
-void writeAll(int fd, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(path, "cannot write");
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-}
-
-// A descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const { return fd_; }
-  int close() {
-    const int fd = fd_;
-    fd_ = -1;
-    return fd >= 0 ? ::close(fd) : 0;
-  }
-
- private:
-  int fd_;
-};
-
 // Bytes to a device or pipe: there is nothing to rename.
 void writeThrough(const std::string& path, std::string_view bytes) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (file.get() < 0) fail(path, "cannot write");
-  writeAll(file.get(), bytes, path);
-  if (file.close() != 0) fail(path, "cannot write");
+  internal::Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.get() < 0) internal::failWrite(path);
+  internal::writeAll(file.get(), bytes, path);
+  if (file.close() != 0) internal::failWrite(path);
 }
 
 // The descriptor that a path like /dev/stdout or /dev/fd/3 stands for, -1 for other paths. Bytes go through
@@ -76,20 +48,13 @@ int ownDescriptor(const std::string& path) {
   return -1;
 }
 
-// Gives the complete, unnamed file a name; false where that is not possible (no /proc).
-bool linkUnnamed(int fd, const std::string& name) {
-  const std::string self = "/proc/self/fd/" + std::to_string(fd);
-  ::unlink(name.c_str());  // left by a killed process of the same number
-  return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
-}
-
 }  // namespace
 
 void writeFileAtomically(const std::string& path, std::string_view bytes) {
   const int own = ownDescriptor(path);
   if (own >= 0) {
     std::fflush(stdout);
-    return writeAll(own, bytes, path);
+    return internal::writeAll(own, bytes, path);
   }
   std::error_code error;
   // the file that a link points to is replaced, not the link
@@ -99,35 +64,8 @@ void writeFileAtomically(const std::string& path, std::string_view bytes) {
   const bool exists = ::stat(target.c_str(), &old) == 0;
   if (exists && !S_ISREG(old.st_mode) && !S_ISDIR(old.st_mode)) return writeThrough(target, bytes);
 
-  const fs::path folder = folderOf(target);
-  const std::string temporary = (folder / (".ltcfit-" + std::to_string(::getpid()))).string();
-  const auto finish = [&](Descriptor& file) {
-    writeAll(file.get(), bytes, target);
-    if (exists && ::fchmod(file.get(), old.st_mode & 07777) != 0) fail(target, "cannot write");
-    if (::fsync(file.get()) != 0) fail(target, "cannot write");
-  };
-  const auto rename = [&] {
-    if (::rename(temporary.c_str(), target.c_str()) == 0) return;
-    const int reason = errno;
-    ::unlink(temporary.c_str());
-    errno = reason;
-    fail(target, "cannot write");
-  };
-
-  Descriptor unnamed(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
-  if (unnamed.get() >= 0) {
-    finish(unnamed);
-    if (linkUnnamed(unnamed.get(), temporary)) return rename();
-  }
-  Descriptor named(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (named.get() < 0) fail(target, "cannot write");
-  try {
-    finish(named);
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  rename();
+  const std::optional<mode_t> mode = exists ? std::optional<mode_t>(old.st_mode & 07777) : std::nullopt;
+  internal::replaceFile(target, bytes, mode, internal::TemporaryFiles());
 }
 
 bool isSameFile(const std::string& a, const std::string& b) {

@@ -24,10 +24,10 @@ class InputError : public std::runtime_error {
 
 /// Writes `bytes` to `path`, replacing what was there. Whoever kills the program at whatever moment finds the
 /// old file or the new one, never a part: the bytes go to a file without a name (O_TMPFILE) that is linked
-/// and renamed when complete and flushed. On a file system without such files they go to .ltcfit-PID in the
-/// same folder, which a kill can leave behind. Permissions of a replaced file are kept, what a link points to
-/// is replaced and not the link, and a device or pipe is written to. Throws FileError and leaves nothing
-/// behind when anything fails, a full disk included.
+/// and renamed when complete and flushed. Where there are no such files they go to a new .ltcfit-RANDOM in
+/// that folder, which a kill can leave behind; no two runs share a name. Permissions of a replaced file are
+/// kept, what a link points to is replaced and not the link, and a device or pipe is written to. Throws
+/// FileError and leaves nothing behind when anything fails, a full disk included.
 void writeFileAtomically(const std::string& path, std::string_view bytes);
 
 /// Throws InputError unless a file could be created at `path` (its folder exists and is writable, it is not a

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
+#include "base/refusal.h"
 #include "export/c_text.h"
 #include "export/packing.h"
 #include "export/texture_metadata.h"
@@ -11,7 +10,8 @@
 namespace ltcfit {
 namespace {
 
-std::string isotropicComment(const Table& table, const std::string& name, const std::vector<std::string>& amplitudes) {
+std::string isotropicComment(const Table& table, const std::string& name,
+                             const std::vector<std::string>& amplitudes) {
   const TableInfo& info = table.info();
   const Axis& y = info.axes[0];
   const Axis& x = info.axes[1];
@@ -50,8 +50,7 @@ std::string isotropicComment(const Table& table, const std::string& name, const 
 }  // namespace
 
 std::string tableToCHeader(const Table& table, const std::string& prefix) {
-  if (!table.isIsotropic())
-    throw std::invalid_argument("format h needs an isotropic table (axes theta, alpha)");
+  if (!table.isIsotropic()) throw Refusal("format h needs an isotropic table (axes theta, alpha)");
   const std::vector<std::string> amplitudes = amplitudesOf(table.info());
   const PackedTable packed = pack(table, packingLean(table.info()), Precision::kFloat);
   const std::string name = identifier(prefix);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/little_endian.h"
 #include "export/mip_chain.h"
@@ -27,7 +28,7 @@ constexpr std::uint32_t kFourCc = 0x4;                                          
 constexpr std::uint32_t kComplex = 0x8, kTexture = 0x1000, kMipMap = 0x400000;  // DDSCAPS_
 constexpr std::uint32_t kCubeMap = 0x200 | 0xFC00, kVolume = 0x200000;          // DDSCAPS2_
 constexpr std::uint32_t kTexture2d = 3, kTexture3d = 4;                         // D3D10_RESOURCE_DIMENSION_
-constexpr std::size_t kMaxDdsSide = 16384;                                         // of Direct3D 11, 2D
+constexpr std::size_t kMaxDdsSide = 16384;                                      // of Direct3D 11, 2D
 constexpr std::size_t kMaxSlices = 2048;  // of volumes and arrays there, 2D
 
 struct DdsFormat {
@@ -37,18 +38,18 @@ struct DdsFormat {
   Precision precision;
 };
 constexpr std::array<DdsFormat, 6> kDdsFormats{{{113, 10, 4, Precision::kHalf},
-                                          {116, 2, 4, Precision::kFloat},
-                                          {112, 34, 2, Precision::kHalf},
-                                          {115, 16, 2, Precision::kFloat},
-                                          {111, 54, 1, Precision::kHalf},
-                                          {114, 41, 1, Precision::kFloat}}};
+                                                {116, 2, 4, Precision::kFloat},
+                                                {112, 34, 2, Precision::kHalf},
+                                                {115, 16, 2, Precision::kFloat},
+                                                {111, 54, 1, Precision::kHalf},
+                                                {114, 41, 1, Precision::kFloat}}};
 
 // Throws for a format that there is none of.
 const DdsFormat& ddsFormatOf(const Image& image) {
   for (const DdsFormat& f : kDdsFormats) {
     if (f.components == image.components && f.precision == image.precision) return f;
   }
-  throw std::invalid_argument("DDS: need 1, 2 or 4 components a texel");
+  throw Refusal("DDS: need 1, 2 or 4 components a texel");
 }
 
 std::string headerOf(const Image& image, DdsHeader header, std::size_t levels) {
@@ -132,11 +133,11 @@ ParsedHeader parseDdsHeader(std::string_view bytes, const std::string& name) {
 std::string imageToDds(const Image& image, DdsHeader header) {
   ddsFormatOf(image);
   if (image.layers > 1 && (image.depth > 1 || header == DdsHeader::kLegacy))
-    throw std::invalid_argument("DDS: this header has no place for an array of textures");
+    throw Refusal("DDS: this header has no place for an array of textures");
   if (image.width > kMaxDdsSide || image.height > kMaxDdsSide || image.depth > kMaxSlices ||
       image.layers > kMaxSlices)
-    throw std::invalid_argument(fmt::format("DDS: {} x {} x {} texels are more than Direct3D takes",
-                                            image.width, image.height, image.depth));
+    throw Refusal(fmt::format("DDS: {} x {} x {} texels are more than Direct3D takes", image.width,
+                              image.height, image.depth));
   std::string out = headerOf(image, header, 1);
   appendValues(out, image.values, image.precision);
   return out;

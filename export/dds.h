@@ -15,7 +15,7 @@ enum class DdsHeader {
 };
 
 /// One 2D texture, array (kDx10 only) or volume of 1, 2 or 4 components, no mip maps. Throws
-/// std::invalid_argument for what the header cannot say.
+/// Refusal for what the header cannot say.
 std::string imageToDds(const Image& image, DdsHeader header);
 
 bool isDds(std::string_view bytes);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 #include "export/anisotropic_c_header.h"
 #include "export/c_header.h"
 #include "export/chebyshev_file.h"
@@ -112,7 +113,7 @@ std::string_view layoutName(Layout layout) {
 Layout layoutFromName(std::string_view name) {
   for (Layout layout : {Layout::kPacked, Layout::kChannels, Layout::kLean})
     if (name == layoutName(layout)) return layout;
-  throw std::invalid_argument(fmt::format("unknown layout '{}' (packed, channels or lean)", name));
+  throw Refusal(fmt::format("unknown layout '{}' (packed, channels or lean)", name));
 }
 
 const std::vector<FormatInfo>& formats() {
@@ -153,7 +154,7 @@ const FormatInfo* findFormat(std::string_view name) {
 ExportResult exportTable(const Table& table, const FormatInfo& format, const FormatOptions& options,
                          const std::string& name) {
   const auto refuse = [&](const char* what) {
-    throw std::invalid_argument(fmt::format("--format {} {}", format.name, what));
+    throw Refusal(fmt::format("--format {} {}", format.name, what));
   };
   if (options.precision == Precision::kHalf && !format.half) refuse("holds float32 only, not half");
   if (options.layout != format.standard && !format.layouts) refuse("has one layout only");

@@ -38,7 +38,7 @@ struct FormatInfo {
   Layout standard = Layout::kPacked;
 };
 
-/// "packed", "channels", "lean"; back: std::invalid_argument for others.
+/// "packed", "channels", "lean"; back: Refusal for others.
 std::string_view layoutName(Layout layout);
 Layout layoutFromName(std::string_view name);
 
@@ -56,7 +56,7 @@ struct ExportResult {
   std::optional<Table> table;  ///< what was written, where that is not the table given (resampled, expanded)
 };
 
-/// `name` is the file's, without folder. Throws std::invalid_argument for options that the format does not
+/// `name` is the file's, without folder. Throws Refusal for options that the format does not
 /// have and tables that it has no place for.
 ExportResult exportTable(const Table& table, const FormatInfo& format, const FormatOptions& options,
                          const std::string& name);

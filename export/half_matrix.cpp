@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
+#include "base/refusal.h"
 #include "export/little_endian.h"
 #include "ltc/ltc.h"
 
@@ -272,7 +272,7 @@ HalfRounding roundToHalf(const Eigen::Matrix3d& stored, MatrixStorage stores, co
     bounded.pattern(true);
     if (bounded.withinBound()) search = bounded;
   }
-  if (!search.found()) throw std::invalid_argument("is out of reach of half precision");
+  if (!search.found()) throw Refusal("is out of reach of half precision");
   return search.result();
 }
 

@@ -34,7 +34,7 @@ struct HalfRounding {
 ///   near the matrix can do so.
 /// Where the diagonal has to be lifted out of the subnormal halves (90 degrees at the smallest alphas), the
 /// shift halfway to the neighbours counts as much as the node's own, and the determinant comes second to
-/// both. Throws std::invalid_argument for entries that no half reaches.
+/// both. Throws Refusal for entries that no half reaches.
 HalfRounding roundToHalf(const Eigen::Matrix3d& stored, MatrixStorage stores, const std::array<bool, 9>& free,
                          std::span<const Eigen::Matrix3d> neighbours = {});
 

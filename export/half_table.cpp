@@ -8,9 +8,10 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
+#include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "export/half_matrix.h"
 
 namespace ltcfit {
@@ -79,20 +80,16 @@ HalfReport roundMatrices(const Table& table, std::vector<Eigen::Matrix3d>& matri
     if (isNew) different.push_back(i);
   }
   std::vector<HalfRounding> roundings(matrices.size());
-  std::vector<std::string> errors(matrices.size());
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < different.size(); ++k) {
+  parallelFor(different.size(), {.chunk = 4}, [&](std::size_t k) {
     const std::size_t i = different[k];
     try {
       roundings[i] = roundToHalf(scale * matrices[i], stores, free, neighboursOf(table, matrices, i, scale));
-    } catch (const std::invalid_argument& error) {
-      errors[i] =
+    } catch (const Refusal& error) {
+      throw Refusal(
           fmt::format("{} {}; fit with a larger --alpha-floor, or write floats where there is a choice",
-                      placeOf(table, i), error.what());
+                      placeOf(table, i), error.what()));
     }
-  }
-  for (const std::string& error : errors)
-    if (!error.empty()) throw std::invalid_argument(error);
+  });
 
   HalfReport report;
   double beyond = 0.0;

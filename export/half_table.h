@@ -46,7 +46,7 @@ double halfScale(const std::vector<Eigen::Matrix3d>& matrices);
 
 /// Rounds the `free` entries of scale * matrices to halves (roundToHalf), in place: one matrix for each node
 /// of the table, M or its inverse as `stores` says. Equal matrices are rounded once, in parallel; the result
-/// does not depend on threads. Throws std::invalid_argument naming the node's alpha and theta.
+/// does not depend on threads. Throws Refusal naming the node's alpha and theta.
 HalfReport roundMatrices(const Table& table, std::vector<Eigen::Matrix3d>& matrices, MatrixStorage stores,
                          const std::array<bool, 9>& free, double scale);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 
 namespace ltcfit {
@@ -167,7 +168,7 @@ void readJson(std::string_view text, const std::string& name, const std::functio
                                  error.byte, text.size()));
   } catch (const Json::exception& error) {
     throw InputError(name + ": " + error.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
 }

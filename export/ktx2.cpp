@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/little_endian.h"
 #include "export/mip_chain.h"
@@ -37,11 +38,11 @@ struct KtxFormat {
   Precision precision;
 };
 constexpr std::array<KtxFormat, 6> kKtxFormats{{{76, 1, Precision::kHalf},
-                                          {83, 2, Precision::kHalf},
-                                          {97, 4, Precision::kHalf},
-                                          {100, 1, Precision::kFloat},
-                                          {103, 2, Precision::kFloat},
-                                          {109, 4, Precision::kFloat}}};
+                                                {83, 2, Precision::kHalf},
+                                                {97, 4, Precision::kHalf},
+                                                {100, 1, Precision::kFloat},
+                                                {103, 2, Precision::kFloat},
+                                                {109, 4, Precision::kFloat}}};
 
 // Khronos Data KtxFormat Specification 1.4, basic descriptor block.
 std::string dataFormatDescriptor(const Image& image) {
@@ -242,8 +243,8 @@ std::vector<float> parseLevel(std::string_view bytes, std::size_t l, const Image
 
 std::string imageToKtx2(const Ktx2File& file, Ktx2Compression compression) {
   const Image& image = file.image;
-  if (ktxFormatOf(image) == nullptr) throw std::invalid_argument("KTX2: need 1, 2 or 4 components a texel");
-  if (image.layers > 1 && image.depth > 1) throw std::invalid_argument("KTX2: no arrays of volumes");
+  if (ktxFormatOf(image) == nullptr) throw Refusal("KTX2: need 1, 2 or 4 components a texel");
+  if (image.layers > 1 && image.depth > 1) throw Refusal("KTX2: no arrays of volumes");
   return toKtx2({&image, 1}, file.keyValues, compression, kZstdLevel);
 }
 

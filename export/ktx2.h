@@ -20,7 +20,7 @@ enum class Ktx2Compression { kNone, kZstd };
 
 /// One level, 2D, 2D array or volume; R, RG or RGBA, half or float (vkFormat 76, 83, 97, 100, 103, 109),
 /// linear transfer, with the data format descriptor of the format; zstd supercompressed or not. Keys are
-/// sorted and values closed by a zero, as the specification wants. Throws std::invalid_argument for other
+/// sorted and values closed by a zero, as the specification wants. Throws Refusal for other
 /// images.
 std::string imageToKtx2(const Ktx2File& file, Ktx2Compression compression);
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/dds.h"
 #include "export/exr.h"
@@ -47,7 +48,8 @@ void readMetadata(std::string_view text, const std::string& name, const std::str
                   LightTextureFile& texture) {
   readJson(text, name, [&](const Json& json) {
     const JsonFields file(json, "");
-    if (file.text("format") != kLightFormat) throw InputError(fmt::format("format is not \"{}\"", kLightFormat));
+    if (file.text("format") != kLightFormat)
+      throw InputError(fmt::format("format is not \"{}\"", kLightFormat));
     if (!file.get("version").is_number_integer() || file.get("version") != kLightVersion)
       throw InputError(fmt::format("version is not known; this program reads version {}", kLightVersion));
     texture.margin = file.number("margin");
@@ -82,8 +84,7 @@ std::vector<ExportFile> lightTextureFiles(const LightTextureFile& texture, const
   }
   std::vector<std::pair<std::string, std::string>> texts{{kMetadataKey, metadataOf(texture, "")}};
   if (extension == ".exr") return {{name, mipsToExr({texture.levels, std::move(texts)})}};
-  if (extension != ".ktx2")
-    throw std::invalid_argument(name + ": need a name that ends in .exr, .dds or .ktx2");
+  if (extension != ".ktx2") throw Refusal(name + ": need a name that ends in .exr, .dds or .ktx2");
   texts.emplace_back("KTXwriter", "ltcfit " LTCFIT_VERSION);
   return {{name, mipsToKtx2({texture.levels, std::move(texts)}, compression)}};
 }

@@ -19,7 +19,7 @@ struct LightTextureFile {
 
 /// The file `name`, by its extension: .ktx2 and .exr hold the metadata (as "ltcfit": JSON, format
 /// "ltc-light-texture"), .dds has it in a sidecar with its checksum. `compression` is for KTX2. Throws
-/// std::invalid_argument for other extensions and for levels that are no such mip maps.
+/// Refusal for other extensions, std::invalid_argument for levels that are no such mip maps.
 std::vector<ExportFile> lightTextureFiles(const LightTextureFile& texture, const std::string& name,
                                           Ktx2Compression compression);
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/half_table.h"
 #include "export/little_endian.h"
 #include "ltc/sphere.h"
@@ -16,7 +16,7 @@ namespace ltcfit {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-  throw std::invalid_argument(what);
+  throw Refusal(what);
 }
 
 // Index 0..8 of "m{row}{column}", nothing for other components.
@@ -93,7 +93,7 @@ std::vector<Eigen::Matrix3d> packedMatrices(const Table& table, const Packing& p
       const Eigen::Matrix3f rounded = exact.cast<float>();
       if (!rounded.allFinite()) fail("has a matrix that does not fit float32");
       out.push_back(rounded.cast<double>());
-    } catch (const std::invalid_argument& error) {
+    } catch (const Refusal& error) {
       fail(fmt::format("{} {}", placeOf(table, i), error.what()));
     }
   }

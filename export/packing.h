@@ -22,7 +22,7 @@ enum class Divisor {
   kThirdColumn,  ///< the length of the third column
 };
 
-/// Name in the metadata: "none", "m00", "m11", "m22", "third-column"; back: std::invalid_argument.
+/// Name in the metadata: "none", "m00", "m11", "m22", "third-column"; back: Refusal.
 std::string_view divisorName(Divisor divisor);
 Divisor divisorFromName(std::string_view name);
 /// What a table file calls a matrix divided so.
@@ -90,13 +90,13 @@ struct PackedTable {
 /// column's length: they weigh its nodes in look-ups, and shaders take any. Where the divisor leaves a free
 /// scale, the matrix is multiplied by the smallest power of two that keeps its diagonal away from subnormal
 /// halves. For norm and Fresnel of a table without them, and for the sphere table of an anisotropic one, "0"
-/// is written. Throws std::invalid_argument naming the node: an entry of a matrix has no place in the
+/// is written. Throws Refusal naming the node: an entry of a matrix has no place in the
 /// packing, there is no inverse, a number does not fit; naming the axis: the packing has a sphere table, for
 /// which an axis of one node has no room.
 PackedTable pack(const Table& table, const Packing& packing, Precision precision);
 
 /// The table that is in the textures. Inverse of pack for float; for half the rounded numbers. Throws
-/// std::invalid_argument for what Table's constructor refuses and sizes that do not fit the axes.
+/// Refusal for what Table's constructor refuses and sizes that do not fit the axes.
 Table unpack(const PackedTable& packed);
 
 }  // namespace ltcfit

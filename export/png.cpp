@@ -2,17 +2,15 @@
 
 #include <png.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
+
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 
 std::string toPng(const Picture& picture) {
   if (picture.rgb.size() != 3 * picture.width * picture.height || picture.rgb.empty()) {
-    std::fprintf(stderr, "toPng: %zu bytes for %zu x %zu pixels\n", picture.rgb.size(), picture.width,
-                 picture.height);
-    std::abort();
+    abortWith("toPng: %zu bytes for %zu x %zu pixels", picture.rgb.size(), picture.width, picture.height);
   }
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

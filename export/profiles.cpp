@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 #include "export/anisotropic_c_header.h"
 #include "export/engine_source.h"
 #include "export/js_module.h"
@@ -84,8 +85,8 @@ Table withAxes(const Table& table, const Profile& profile, bool resample) {
   const std::string hint =
       fmt::format("profile {} needs {}, and this table has {}: `{}` makes the right one", profile.name,
                   profile.layout, describeAxes(table), fitCommand(profile));
-  if (table.isIsotropic() != profile.axes.isotropic) throw std::invalid_argument(hint);
-  if (!resample) throw std::invalid_argument(hint + ", --resample interpolates this one");
+  if (table.isIsotropic() != profile.axes.isotropic) throw Refusal(hint);
+  if (!resample) throw Refusal(hint + ", --resample interpolates this one");
   const double floor = table.info().alphaFloor;
   if (!profile.axes.isotropic) {
     return resampled(table, {makeAxis("alpha", "1", AxisMap::kLinear, 8, 0.0, 1.0, floor),
@@ -102,7 +103,7 @@ void needAmplitudes(const Table& table, const Profile& profile) {
   const std::vector<std::string>& c = table.info().channels;
   for (const char* channel : {"norm", "fresnel"}) {
     if (std::find(c.begin(), c.end(), channel) == c.end())
-      throw std::invalid_argument(
+      throw Refusal(
           fmt::format("profile {} needs the channel {}, which this table lacks", profile.name, channel));
   }
 }

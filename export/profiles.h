@@ -39,7 +39,7 @@ std::string fitCommand(const Profile& profile);
 
 /// The files of the engine and a sidecar for those that have no place for a comment. `name` is the file's,
 /// without folder, where the profile has one file. With `resample` a table of other nodes is looked up at the
-/// engine's (ltc/resample.h, with its interpolation error). Throws std::invalid_argument: other axes or size
+/// engine's (ltc/resample.h, with its interpolation error). Throws Refusal: other axes or size
 /// (naming fitCommand), no norm or Fresnel, an entry that the layout has no place for. Warns of numbers
 /// outside of the ranges that an engine has built in.
 ExportResult exportProfile(const Table& table, const Profile& profile, bool resample,

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "base/angles.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/texture_files.h"
 
@@ -91,7 +90,7 @@ PackedTable packedFrom2017(const Image& first, const Image* second, const std::s
     info.axes.push_back(withLastValue(
         makeAxis("theta", "rad", AxisMap::kSqrtOneMinusCos, first.height, 0.0, kHalfPi), kTheta2017));
     info.axes.push_back(makeAxis("alpha", "1", AxisMap::kSqrt, first.width, 0.0, 1.0, kFloor2017));
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
   return packed;
@@ -120,7 +119,7 @@ Table tableFrom2022(const FloatArray& array, const std::string& name) {
     for (double& v : info.axes.back().values) v *= kTheta2022 / kHalfPi;
     info.axes.push_back(makeAxis("phi", "rad", linear, s[3], 0.0, kHalfPi));
     return Table(std::move(info), array.values);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
 }

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/c_text.h"
 #include "export/packing.h"
 
@@ -267,8 +267,8 @@ std::string ShaderLookup::call(const std::map<std::string, std::string>& argumen
 ShaderLookup makeShaderLookup(const TableInfo& info, ShadingLanguage language, const std::string& prefix) {
   for (const Axis& axis : info.axes) {
     if (axis.size() > 1 && axis.map == AxisMap::kNone)
-      throw std::invalid_argument(fmt::format(
-          "axis '{}' has {} nodes and no map: a shader would have to search them", axis.name, axis.size()));
+      throw Refusal(fmt::format("axis '{}' has {} nodes and no map: a shader would have to search them",
+                                axis.name, axis.size()));
   }
   const Words words{language == ShadingLanguage::kGlsl};
   const bool isotropic = info.axes.size() == 2;

@@ -30,7 +30,7 @@ struct ShaderLookup {
 /// The look-up in textures of packingLean, in float or half: maps, ranges and warps of the axes as constants;
 /// of axes of one node neither arithmetic nor interpolation is left. What Table::fetch yields, in float32:
 /// parameters outside of the axes are taken for their ends. Of a table without norm entry.norm is 1, of one
-/// without fresnel entry.fresnel is 0. `prefix` becomes an identifier. Throws std::invalid_argument for an
+/// without fresnel entry.fresnel is 0. `prefix` becomes an identifier. Throws Refusal for an
 /// axis of several nodes without a map, which a shader would have to search.
 ShaderLookup makeShaderLookup(const TableInfo& info, ShadingLanguage language, const std::string& prefix);
 

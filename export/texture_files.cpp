@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/c_text.h"
 #include "export/exr.h"
@@ -71,12 +71,12 @@ Image imageFor(const PackedTable& packed, std::size_t texture) {
   Image image;
   image.precision = packed.precision;
   image.components = packed.packing.textures[texture].components.size();
-  if (axes.size() != 2 && axes.size() != 4) throw std::invalid_argument("axes: need two or four");
+  if (axes.size() != 2 && axes.size() != 4) throw Refusal("axes: need two or four");
   if (image.components == 0 || image.components > kMaxComponents)
-    throw std::invalid_argument("a texture needs 1 to 16 components");
+    throw Refusal("a texture needs 1 to 16 components");
   std::size_t nodes = 1;
   for (const Axis& axis : axes) {
-    if (axis.size() > kMaxNodes / nodes) throw std::invalid_argument("axes: more nodes than any table has");
+    if (axis.size() > kMaxNodes / nodes) throw Refusal("axes: more nodes than any table has");
     nodes *= axis.size();
   }
   image.width = axes.back().size();
@@ -91,7 +91,7 @@ Image stackedImage(const PackedTable& packed) {
   Image stack = packed.images[0];
   for (std::size_t t = 1; t < packed.images.size(); ++t) {
     const Image& image = packed.images[t];
-    if (image.components != stack.components) throw std::invalid_argument("textures differ in components");
+    if (image.components != stack.components) throw Refusal("textures differ in components");
     stack.values.insert(stack.values.end(), image.values.begin(), image.values.end());
     (isVolume(packed) ? stack.depth : stack.layers) += image.depth;
   }
@@ -106,14 +106,14 @@ std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed
     const std::size_t count = image.texels() * image.components;
     if (image.width != stack.width || image.height != stack.height || image.components != stack.components ||
         count > stack.values.size() - at) {
-      throw std::invalid_argument("the size of the texture does not fit the axes");
+      throw Refusal("the size of the texture does not fit the axes");
     }
     const auto begin = stack.values.begin() + static_cast<std::ptrdiff_t>(at);
     image.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
     at += count;
     images.push_back(std::move(image));
   }
-  if (at != stack.values.size()) throw std::invalid_argument("the size of the texture does not fit the axes");
+  if (at != stack.values.size()) throw Refusal("the size of the texture does not fit the axes");
   return images;
 }
 
@@ -233,7 +233,7 @@ std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string&
 Table tableFromPacked(const PackedTable& packed, const std::string& name) {
   try {
     return unpack(packed);
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
 }
@@ -242,7 +242,7 @@ PackedTable packedFromStack(PackedTable packed, const Image& stack, const std::s
   try {
     packed.images = unstackedImages(stack, packed);
     return packed;
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
 }
@@ -261,24 +261,24 @@ PackedTable packedFromExr(std::string_view bytes, const std::string& name) {
       Image image = imageFor(packed, t);
       // each is read from a channel of its own: a few bytes of names must not ask for an image each
       components += image.components;
-      if (components > file.names.size()) throw std::invalid_argument("EXR: fewer channels than components");
+      if (components > file.names.size()) throw Refusal("EXR: fewer channels than components");
       const bool volume = isVolume(packed);
       if (file.width != (volume ? image.width * image.height : image.width) ||
           file.height != (volume ? image.depth : image.height) ||
           (packed.packing.textures.size() > 1 && image.components > kComponentNames.size())) {
-        throw std::invalid_argument("the size of the image does not fit the axes");
+        throw Refusal("the size of the image does not fit the axes");
       }
       image.values.resize(image.texels() * image.components);
       for (std::size_t c = 0; c < image.components; ++c) {
         const std::string channel = exrChannel(packed.packing, t, c);
         const auto at = std::find(file.names.begin(), file.names.end(), channel);
-        if (at == file.names.end()) throw std::invalid_argument("EXR: no channel '" + channel + "'");
+        if (at == file.names.end()) throw Refusal("EXR: no channel '" + channel + "'");
         const std::vector<float>& values = file.channels[static_cast<std::size_t>(at - file.names.begin())];
         for (std::size_t i = 0; i < values.size(); ++i) image.values[i * image.components + c] = values[i];
       }
       images.push_back(std::move(image));
     }
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
   packed.images = std::move(images);
@@ -293,14 +293,14 @@ PackedTable packedFromNumbers(PackedTable packed, const std::vector<float>& numb
     for (std::size_t t = 0; t < packed.packing.textures.size(); ++t) {
       Image image = imageFor(packed, t);
       const std::size_t count = image.texels() * image.components;
-      if (count > numbers.size() - at) throw std::invalid_argument("too few numbers for the axes");
+      if (count > numbers.size() - at) throw Refusal("too few numbers for the axes");
       const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(at);
       image.values.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
       at += count;
       images.push_back(std::move(image));
     }
-    if (at != numbers.size()) throw std::invalid_argument("more numbers than the axes have nodes");
-  } catch (const std::invalid_argument& error) {
+    if (at != numbers.size()) throw Refusal("more numbers than the axes have nodes");
+  } catch (const Refusal& error) {
     throw InputError(name + ": " + error.what());
   }
   packed.images = std::move(images);

@@ -21,7 +21,7 @@ struct ExportFile {
 /// begins at slice t * n_alpha * n_lambda). All textures of the packing have one size.
 Image stackedImage(const PackedTable& packed);
 
-/// The inverse: as many images as the packing has textures. std::invalid_argument where the image's size does
+/// The inverse: as many images as the packing has textures. Refusal where the image's size does
 /// not fit them.
 std::vector<Image> unstackedImages(const Image& stack, const PackedTable& packed);
 

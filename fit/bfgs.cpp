@@ -4,9 +4,8 @@
 #include <ceres/gradient_problem_solver.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
+#include "base/diagnostics.h"
 #include "fit/ceres_termination.h"
 
 namespace ltcfit {
@@ -46,10 +45,7 @@ bool BfgsOptions::isValid(std::string* error) const {
 
 OptimizerResult minimizeBfgs(const GradientCostFunction& cost, std::span<const double> start,
                              const BfgsOptions& options) {
-  if (start.empty()) {
-    std::fprintf(stderr, "minimizeBfgs: no parameters\n");
-    std::abort();
-  }
+  if (start.empty()) abortWith("minimizeBfgs: no parameters");
   OptimizerResult result;
   result.parameters.assign(start.begin(), start.end());
   result.startCost = result.cost = cost(start, nullptr);

@@ -17,6 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/refusal.h"
+
 namespace ltcfit {
 namespace {
 
@@ -115,13 +117,13 @@ void writeAll(int file, const std::string& path, std::string_view text) {
 Checkpoint::Checkpoint(std::string path, const std::string& fingerprint, std::size_t jobs)
     : path_(std::move(path)) {
   // without O_NONBLOCK a pipe of that name would wait for ever
-  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+  file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW, 0666);
+  if (file_ < 0 && errno == ELOOP) throw Refusal(path_ + ": a link, not a file");
   if (file_ < 0) throw std::runtime_error(path_ + ": " + std::strerror(errno));
   try {
     struct stat opened {};
     struct stat named {};
-    if (::fstat(file_, &opened) != 0 || !S_ISREG(opened.st_mode))
-      throw std::invalid_argument(path_ + ": not a file");
+    if (::fstat(file_, &opened) != 0 || !S_ISREG(opened.st_mode)) throw Refusal(path_ + ": not a file");
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0) throw std::runtime_error(path_ + ": in use by another run");
     // a run that ended in between has deleted the file that was opened
     if (::stat(path_.c_str(), &named) != 0 || named.st_ino != opened.st_ino || named.st_dev != opened.st_dev)
@@ -145,10 +147,9 @@ void Checkpoint::read(const std::string& header, std::size_t jobs) {
   const bool nothing = text.size() < header.size() && header.compare(0, text.size(), text) == 0;
   std::size_t whole = 0;
   if (!nothing) {
-    if (text.compare(0, kMagic.size(), kMagic) != 0)
-      throw std::invalid_argument(path_ + ": not a checkpoint");
+    if (text.compare(0, kMagic.size(), kMagic) != 0) throw Refusal(path_ + ": not a checkpoint");
     if (text.compare(0, header.size(), header) != 0) {
-      throw std::invalid_argument(
+      throw Refusal(
           path_ + ": holds another run, of: " + text.substr(kMagic.size(), text.find('\n') - kMagic.size()));
     }
     whole = header.size();

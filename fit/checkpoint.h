@@ -14,7 +14,7 @@ namespace ltcfit {
 class Checkpoint final : public JobStore {
  public:
   /// Opens or makes the file. `fingerprint` is one line that names everything the results depend on (command
-  /// and version); `jobs` their number. Throws std::invalid_argument where the file belongs to another
+  /// and version); `jobs` their number. Throws Refusal where the file belongs to another
   /// fingerprint or is no checkpoint, std::runtime_error where it cannot be written or another run has it
   /// open.
   Checkpoint(std::string path, const std::string& fingerprint, std::size_t jobs);

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
+
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -93,12 +94,12 @@ class Reader {
   static IsotropicFamily familyFrom(const std::string& name) {
     for (const IsotropicFamily family : {IsotropicFamily::kPlane4, IsotropicFamily::kMeanFrame3})
       if (name == familyName(family)) return family;
-    throw std::invalid_argument("");
+    throw Refusal("");
   }
   static SymmetryMode symmetryFrom(const std::string& name) {
     for (const SymmetryMode mode : {SymmetryMode::kDuring, SymmetryMode::kAfter})
       if (name == symmetryName(mode)) return mode;
-    throw std::invalid_argument("");
+    throw Refusal("");
   }
 
   void refuse(std::string_view name, const Value& value) {
@@ -106,15 +107,15 @@ class Reader {
         fmt::format("provenance.options.{}: no fit has {}; the default is taken", name, shown(value)));
   }
 
-  // `take` throws std::invalid_argument for a text that it does not know.
+  // `take` throws Refusal for a text that it does not know.
   template <class Take>
   void text(std::string_view name, const Take& take) {
     const Value* const value = find(provenance_, name);
     if (value == nullptr) return;
     try {
-      if (!std::holds_alternative<std::string>(*value)) throw std::invalid_argument("");
+      if (!std::holds_alternative<std::string>(*value)) throw Refusal("");
       take(std::get<std::string>(*value));
-    } catch (const std::invalid_argument&) {
+    } catch (const Refusal&) {
       refuse(name, *value);
     }
   }

@@ -1,13 +1,13 @@
 #include "fit/isotropic_table_fit.h"
 
-#include <omp.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "fit/lobe_shape.h"
 #include "ggx/ggx_lobe.h"
 #include "ltc/ltc.h"
@@ -82,13 +82,11 @@ class TableFit {
       const bool first = a + 1 == nA_;
       fitFirst(0, a, first ? Start{0, a, WarmStart::kIdentity} : Start{0, a + 1, WarmStart::kAlphaNeighbour});
     }
-    const int threads = threads_ > 0 ? threads_ : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (std::size_t a = 0; a < nA_;
-         ++a) {  // sharp rows take longest: first, so that no thread ends alone with one
+    // sharp rows take longest: first, so that no thread ends alone with one
+    parallelFor(nA_, {.threads = threads_}, [&](std::size_t a) {
       for (std::size_t t = 1; t < nT_; ++t) fitFirst(t, a, {t - 1, a, WarmStart::kThetaNeighbour});
-    }
-    refitOutliers(threads);
+    });
+    refitOutliers();
     return finish();
   }
 
@@ -98,22 +96,14 @@ class TableFit {
     WarmStart kind;
   };
 
-  std::size_t flat(std::size_t t, std::size_t a) const {
-    return t * nA_ + a;
-  }
-  double theta(std::size_t t) const {
-    return info_.axes[0].values[t];
-  }
-  double alpha(std::size_t a) const {
-    return info_.axes[1].values[a];
-  }
+  std::size_t flat(std::size_t t, std::size_t a) const { return t * nA_ + a; }
+  double theta(std::size_t t) const { return info_.axes[0].values[t]; }
+  double alpha(std::size_t a) const { return info_.axes[1].values[a]; }
   GgxLobe lobe(std::size_t t, std::size_t a) const {
     return GgxLobe(viewDirection(theta(t), 0.0), {alpha(a), alpha(a)});
   }
 
-  FittedLobe fitted(std::size_t i) const {
-    return {moments_[i].mean, shapes_[i], reports_[i].fit.m};
-  }
+  FittedLobe fitted(std::size_t i) const { return {moments_[i].mean, shapes_[i], reports_[i].fit.m}; }
 
   Matrix3d startMatrix(std::size_t t, std::size_t a, const Start& from) const {
     if (from.kind == WarmStart::kIdentity) return Matrix3d::Identity();
@@ -132,7 +122,7 @@ class TableFit {
     report.warmStart = from.kind;
     report.totalEvaluations = report.fit.evaluations;
     if (progress_) {
-#pragma omp critical(ltcfit_progress)
+      const std::lock_guard lock(progressMutex_);
       progress_(++done_, reports_.size());
     }
   }
@@ -153,14 +143,13 @@ class TableFit {
   }
 
   // All second tries read the first results only, so that their order does not matter.
-  void refitOutliers(int threads) {
+  void refitOutliers() {
     std::vector<std::size_t> suspects;
     for (std::size_t i = 0; i < reports_.size(); ++i) {
       if (suspicious(i / nA_, i % nA_)) suspects.push_back(i);
     }
     std::vector<EntryReport> better(suspects.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (std::size_t k = 0; k < suspects.size(); ++k) {
+    parallelFor(suspects.size(), {.threads = threads_}, [&](std::size_t k) {
       const std::size_t i = suspects[k];
       const std::size_t t = i / nA_;
       const std::size_t a = i % nA_;
@@ -179,7 +168,7 @@ class TableFit {
         }
       }
       better[k] = best;
-    }
+    });
     for (std::size_t k = 0; k < suspects.size(); ++k) reports_[suspects[k]] = better[k];
   }
 
@@ -215,6 +204,7 @@ class TableFit {
   std::vector<LobeMoments> moments_;
   std::vector<LobeShape> shapes_;
   std::vector<EntryReport> reports_;
+  std::mutex progressMutex_;
   std::size_t done_ = 0;
 };
 

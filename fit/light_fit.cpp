@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "fit/ceres_termination.h"
 #include "ltc/ltc.h"
 #include "ltc/polygon.h"
@@ -79,7 +79,7 @@ LightFitOptions lightFitPreset(std::string_view name) {
   } else if (name == "fine") {
     o.lights.lights = 8192;
   } else if (name != "standard") {
-    throw std::invalid_argument("preset '" + std::string(name) + "' (fast, standard or fine)");
+    throw Refusal("preset '" + std::string(name) + "' (fast, standard or fine)");
   }
   return o;
 }

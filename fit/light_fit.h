@@ -23,7 +23,7 @@ struct LightFitOptions {
 };
 
 /// Options by name: "fast" (the default of isotropic tables), "standard" (of anisotropic ones) and "fine":
-/// numbers of lights. Throws std::invalid_argument for another name.
+/// numbers of lights. Throws Refusal for another name.
 LightFitOptions lightFitPreset(std::string_view name);
 
 /// The least-squares problem about a matrix: residuals

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "fit/target_lobe.h"
 #include "ggx/random.h"
 
@@ -60,7 +60,7 @@ Fitter fitterFromName(std::string_view name) {
        {Fitter::kSlicedWasserstein, Fitter::kSlicedWassersteinSgd, Fitter::kL3, Fitter::kLight}) {
     if (name == fitterName(f)) return f;
   }
-  throw std::invalid_argument("fitter '" + std::string(name) + "' (light, sw, sw-sgd or l3)");
+  throw Refusal("fitter '" + std::string(name) + "' (light, sw, sw-sgd or l3)");
 }
 
 bool LobeFitOptions::isValid(std::string* error) const {
@@ -95,11 +95,11 @@ LobeFitOptions tableFitPreset(TableKind kind, Fitter fitter, std::string_view pr
       break;
     case Fitter::kSlicedWassersteinSgd:
       if (name != "quick" && name != "paper")
-        throw std::invalid_argument("preset '" + std::string(name) + "' (quick or paper)");
+        throw Refusal("preset '" + std::string(name) + "' (quick or paper)");
       if (name == "paper") o.sgd = paperSgdOptions();
       break;
     case Fitter::kL3:
-      if (!name.empty()) throw std::invalid_argument("l3 has no preset '" + std::string(name) + "'");
+      if (!name.empty()) throw Refusal("l3 has no preset '" + std::string(name) + "'");
       break;
   }
   return o;

@@ -23,7 +23,7 @@ enum class Fitter {
   kLight,                 ///< "light": fitLights
 };
 std::string_view fitterName(Fitter fitter);
-/// std::invalid_argument for another name.
+/// Refusal for another name.
 Fitter fitterFromName(std::string_view name);
 
 struct LobeFitOptions {
@@ -50,13 +50,13 @@ std::string_view defaultPreset(TableKind kind, Fitter fitter);
 
 /// The options that a kind of table is fitted with, seed 1; `preset` as in lightFitPreset,
 /// slicedWassersteinPreset, or "quick" and "paper" for sw-sgd; empty for the default one. Throws
-/// std::invalid_argument for a name that the fitter does not have.
+/// Refusal for a name that the fitter does not have.
 LobeFitOptions tableFitPreset(TableKind kind, Fitter fitter, std::string_view preset = {});
 
 /// What the fits know of a lobe. Not thread-safe: the judge has scratch memory.
 class LobeFitTarget {
  public:
-  /// Throws std::invalid_argument for an unknown brdf (fit/target_lobe.h).
+  /// Throws Refusal for an unknown brdf (fit/target_lobe.h).
   LobeFitTarget(const LobeJob& job, std::string_view brdf, const LobeFitOptions& options);
 
   const Lobe& lobe() const { return *lobe_; }

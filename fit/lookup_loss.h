@@ -58,7 +58,7 @@ class LookUpSamples {
 class LookUpLoss {
  public:
   /// `seed` draws lights and quads and turns the slices. `options` valid, `samples` made with them. Throws
-  /// std::invalid_argument for an unknown brdf.
+  /// Refusal for an unknown brdf.
   LookUpLoss(const LobeParameters& parameters, std::string_view brdf, const LookUpLossOptions& options,
              std::uint64_t seed, LookUpSamples& samples);
 

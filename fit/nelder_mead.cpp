@@ -3,9 +3,9 @@
 #include <nlopt.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
+
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 namespace {
@@ -62,9 +62,7 @@ OptimizerResult minimizeNelderMead(const CostFunction& cost, std::span<const dou
                                    std::span<const double> steps, const NelderMeadOptions& options) {
   std::string error;
   if (start.empty() || start.size() != steps.size() || !options.isValid(&error)) {
-    std::fprintf(stderr, "minimizeNelderMead: %zu parameters, %zu steps; %s\n", start.size(), steps.size(),
-                 error.c_str());
-    std::abort();
+    abortWith("minimizeNelderMead: %zu parameters, %zu steps; %s", start.size(), steps.size(), error.c_str());
   }
   OptimizerResult result;
   result.parameters.assign(start.begin(), start.end());

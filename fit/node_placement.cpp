@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -15,7 +15,7 @@ bool isAngle(std::string_view axis) {
 }
 
 [[noreturn]] void refuse(std::string_view axis, const std::string& what) {
-  throw std::invalid_argument(fmt::format("--axes {}: {}", axis, what));
+  throw Refusal(fmt::format("--axes {}: {}", axis, what));
 }
 
 void checkKnots(std::string_view axis, const std::vector<double>& knots, std::size_t n) {
@@ -39,7 +39,7 @@ IsotropicPlacement isotropicPlacement(std::string_view name) {
   if (name == "best")
     return {NodePlacement{AxisMap::kSqrtOneMinusCos, {-0.6, 0.3}},
             NodePlacement{AxisMap::kSqrt, {0.5, -0.2}}};
-  throw std::invalid_argument(fmt::format("unknown axes '{}' (2016, 2017 or best)", name));
+  throw Refusal(fmt::format("unknown axes '{}' (2016, 2017 or best)", name));
 }
 
 AnisotropicPlacement anisotropicPlacement(std::string_view name) {
@@ -53,7 +53,7 @@ AnisotropicPlacement anisotropicPlacement(std::string_view name) {
     return {NodePlacement{AxisMap::kLinear, {0.5, 0.0}}, NodePlacement{AxisMap::kLinear, {0.2, 0.0}},
             NodePlacement{AxisMap::kLinear, {-0.35, 0.2}},
             NodePlacement{AxisMap::kSqrtOneMinusCos, {-0.2, 0.1}}};
-  throw std::invalid_argument(fmt::format("unknown axes '{}' (2022 or best)", name));
+  throw Refusal(fmt::format("unknown axes '{}' (2022 or best)", name));
 }
 
 Axis placedAxis(std::string_view name, const NodePlacement& placement, std::size_t n, double floor) {

@@ -29,14 +29,14 @@ inline constexpr std::array<std::string_view, 4> kAnisotropicAxisNames{"alpha", 
 
 /// "2017": sqrt(1 - cos theta), as engines read it, the default; "2016": theta, linear, as Heitz et al. 2016
 /// print it; both with the root of alpha. "best": of least measured error, warped.
-/// Another name throws std::invalid_argument.
+/// Another name throws Refusal.
 IsotropicPlacement isotropicPlacement(std::string_view name);
 
 /// "2022": all axes linear, as KT et al. 2022 have them, the default; "best": of least measured error.
 AnisotropicPlacement anisotropicPlacement(std::string_view name);
 
 /// The axis `name` (of those above) with n >= 2 nodes, values clamped from below to `floor`. Throws
-/// std::invalid_argument, with a message that begins with the option --axes and the axis, for a warp that is
+/// Refusal, with a message that begins with the option --axes and the axis, for a warp that is
 /// not monotone, a map that no table may have on this axis (Table), and knots that are not n, do not increase
 /// or do not reach from end to end.
 Axis placedAxis(std::string_view name, const NodePlacement& placement, std::size_t n, double floor = 0.0);

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "ggx/random.h"
 #include "ltc/ltc.h"
 #include "ltc/polygon.h"
@@ -143,7 +143,7 @@ LightWeighting lightWeightingFromName(std::string_view name) {
        {LightWeighting::kAbsolute, LightWeighting::kRelative, LightWeighting::kMixed}) {
     if (name == lightWeightingName(w)) return w;
   }
-  throw std::invalid_argument("weighting '" + std::string(name) + "' (absolute, relative or mixed)");
+  throw Refusal("weighting '" + std::string(name) + "' (absolute, relative or mixed)");
 }
 
 bool PolygonLightOptions::isValid(std::string* error) const {

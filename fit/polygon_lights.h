@@ -20,7 +20,7 @@ enum class LightWeighting {
   kMixed,     ///< over the square root of the same
 };
 std::string_view lightWeightingName(LightWeighting weighting);
-/// "absolute", "relative", "mixed"; std::invalid_argument for another name.
+/// "absolute", "relative", "mixed"; Refusal for another name.
 LightWeighting lightWeightingFromName(std::string_view name);
 
 struct PolygonLightOptions {

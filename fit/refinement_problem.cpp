@@ -1,16 +1,15 @@
 #include "fit/refinement_problem.h"
 
 #include <ceres/cost_function.h>
-#include <omp.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include "fit/parallel_for.h"
+#include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "ggx/random.h"
 
 namespace ltcfit::internal {
@@ -109,7 +108,7 @@ class ChangeCost final : public ceres::CostFunction {
 
 RefinedLookUps::RefinedLookUps(const Table& table, const TablePlan& plan, const RefinementOptions& options)
     : plan_(plan), form_{table.info().stores, table.info().normalization} {
-  threads_ = options.threads > 0 ? options.threads : omp_get_max_threads();
+  threads_ = threadCount(options.threads);
   for (int t = 0; t < threads_; ++t) samples_.emplace_back(options.loss);
   entries_.reserve(plan.jobs.size());
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
@@ -118,7 +117,7 @@ RefinedLookUps::RefinedLookUps(const Table& table, const TablePlan& plan, const 
     const NodeSource& node = plan.nodes[n];
     const Matrix3d m = projectOnFamily(turned(table.entry(table.node(n)).m, -node.rotation), node.jobFamily);
     if (!m.allFinite() || !(m.determinant() > 0.0))
-      throw std::invalid_argument("node " + std::to_string(n) + " has no matrix with det > 0");
+      throw Refusal("node " + std::to_string(n) + " has no matrix with det > 0");
     entries_.emplace_back(m, node.jobFamily, form_);
   }
 }
@@ -137,7 +136,7 @@ void RefinedLookUps::prepare(const std::vector<RefinementPoint>& points, const s
                              RefinementObserver* observer) {
   lookUps_.resize(points.size());
   std::size_t done = 0;
-  parallelFor(points.size(), threads_, [&](std::size_t i) {
+  parallelFor(points.size(), {.threads = threads_}, [&](std::size_t i, std::size_t slot) {
     RefinedLookUp& l = lookUps_[i];
     l.nodes = points[i].isNode ? LookUpNodes{.node = {points[i].node}, .weight = {1.0}, .count = 1}
                                : lookUpNodes(plan_.info.axes, points[i].parameters);
@@ -145,34 +144,31 @@ void RefinedLookUps::prepare(const std::vector<RefinementPoint>& points, const s
       const std::size_t job = plan_.nodes[l.nodes.node[k]].job;
       if (std::find(l.jobs.begin(), l.jobs.end(), job) == l.jobs.end()) l.jobs.push_back(job);
     }
-    l.loss = std::make_unique<LookUpLoss>(points[i].parameters, brdf, options, mixSeed(seed, i), samples());
+    l.loss =
+        std::make_unique<LookUpLoss>(points[i].parameters, brdf, options, mixSeed(seed, i), samples_[slot]);
     return [&] {
       if (observer != nullptr) observer->prepared(++done, points.size());
     };
   });
 }
 
-LookUpSamples& RefinedLookUps::samples() {
-  return samples_[static_cast<std::size_t>(omp_get_thread_num())];
-}
-
 void RefinedLookUps::PrepareForEvaluation(bool jacobians, bool isNew) {
   if (isNew)
     for (RefinedEntry& e : entries_) e.update();
-#pragma omp parallel for schedule(dynamic, 16) num_threads(threads_)
-  for (std::size_t i = 0; i < lookUps_.size(); ++i) evaluate(lookUps_[i], jacobians);
+  parallelFor(lookUps_.size(), {.threads = threads_, .chunk = 16},
+              [&](std::size_t i, std::size_t slot) { evaluate(lookUps_[i], jacobians, samples_[slot]); });
 }
 
-void RefinedLookUps::evaluate(RefinedLookUp& l, bool jacobians) {
+void RefinedLookUps::evaluate(RefinedLookUp& l, bool jacobians, LookUpSamples& samples) {
   l.stored = storedAt(l.nodes);
   const Matrix3d m = matrixOf(l.stored, form_.stores);
   l.isLtc = LookUpLoss::isLtc(m);
   if (!jacobians) {
-    l.value = (*l.loss)(m, samples(), nullptr);
+    l.value = (*l.loss)(m, samples, nullptr);
     return;
   }
   LossDerivatives d;
-  l.value = (*l.loss)(m, samples(), &d);
+  l.value = (*l.loss)(m, samples, &d);
   const double least = kLeastCurvature * d.curvature.trace() + std::numeric_limits<double>::min();
   d.curvature.diagonal().array() += least;
   const Eigen::LLT<Matrix9d> llt(d.curvature);

@@ -38,7 +38,7 @@ struct RefinedLookUp {
 /// for their residuals one by one: its own threads would add them up in any order.
 class RefinedLookUps final : public ceres::EvaluationCallback {
  public:
-  /// One entry for each job of the plan, as `table` has it. Throws std::invalid_argument for a node without a
+  /// One entry for each job of the plan, as `table` has it. Throws Refusal for a node without a
   /// matrix of det > 0. `plan` must outlive it.
   RefinedLookUps(const Table& table, const TablePlan& plan, const RefinementOptions& options);
 
@@ -56,14 +56,13 @@ class RefinedLookUps final : public ceres::EvaluationCallback {
   void PrepareForEvaluation(bool jacobians, bool isNew) override;
 
  private:
-  LookUpSamples& samples();
   Eigen::Matrix3d storedAt(const LookUpNodes& nodes) const;
-  void evaluate(RefinedLookUp& l, bool jacobians);
+  void evaluate(RefinedLookUp& l, bool jacobians, LookUpSamples& samples);
 
   const TablePlan& plan_;
   StoredForm form_;
   int threads_;
-  std::vector<LookUpSamples> samples_;  // one for each thread
+  std::vector<LookUpSamples> samples_;  // one for each slot of a parallel loop
   std::vector<RefinedEntry> entries_;
   std::vector<RefinedLookUp> lookUps_;
 };

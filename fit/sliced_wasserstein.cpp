@@ -1,8 +1,8 @@
 #include "fit/sliced_wasserstein.h"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 
@@ -28,9 +28,7 @@ void SlicedWasserstein::setTarget(std::span<const Vector3d> lobe, std::span<cons
 // |v|; and v = M x gives dL/dM = dL/dv x^T.
 double SlicedWasserstein::evaluate(const Matrix3d& m, std::span<const Vector3d> cosine, Matrix3d* gradient) {
   if (cosine.size() != samples_ || samples_ == 0) {
-    std::fprintf(stderr, "SlicedWasserstein: %zu cosine samples for %zu of the lobe\n", cosine.size(),
-                 samples_);
-    std::abort();
+    abortWith("SlicedWasserstein: %zu cosine samples for %zu of the lobe", cosine.size(), samples_);
   }
   directions_.resize(samples_);
   invLengths_.resize(samples_);

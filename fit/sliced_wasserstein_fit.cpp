@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "fit/moment_start.h"
 #include "ggx/random.h"
 #include "ltc/alignment.h"
@@ -205,7 +205,7 @@ SlicedWassersteinFitOptions slicedWassersteinPreset(std::string_view name) {
   } else if (name == "fine") {
     o.levels = {{512, 24, 2048}, {8192, 256, 65536}};
   } else if (name != "standard") {
-    throw std::invalid_argument("preset '" + std::string(name) + "' (fast, standard or fine)");
+    throw Refusal("preset '" + std::string(name) + "' (fast, standard or fine)");
   }
   return o;
 }

@@ -33,7 +33,7 @@ struct SlicedWassersteinFitOptions {
 };
 
 /// Levels by name: "fast" (the default of isotropic tables), "standard" (of anisotropic ones) and "fine",
-/// which takes some ten times as long for the last half percent. Throws std::invalid_argument for another
+/// which takes some ten times as long for the last half percent. Throws Refusal for another
 /// name.
 SlicedWassersteinFitOptions slicedWassersteinPreset(std::string_view name);
 

@@ -1,12 +1,10 @@
 #include "fit/table_fit.h"
 
-#include <omp.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <memory>
 
-#include "fit/parallel_for.h"
+#include "base/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "ltc/alignment.h"
 #include "ltc/ltc.h"
@@ -102,9 +100,9 @@ TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const Tabl
       open.push_back(i);
     }
   }
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const ParallelOptions parallel{.threads = options.threads};
   std::size_t done = n - open.size();
-  parallelFor(open.size(), threads, [&](std::size_t k) {
+  parallelFor(open.size(), parallel, [&](std::size_t k) {
     const std::size_t i = open[k];
     result.jobs[i] = fitJob(plan.jobs[i], plan.info.brdf, options);
     return [&, i] {
@@ -113,14 +111,13 @@ TableFitResult fitTable(const TablePlan& plan, SymmetryMode symmetry, const Tabl
     };
   });
   if (symmetry == SymmetryMode::kAfter) {
-    parallelFor(n, threads, [&](std::size_t i) {
+    parallelFor(n, parallel, [&](std::size_t i) {
       const std::unique_ptr<Lobe> lobe = makeTargetLobe(plan.info.brdf, plan.jobs[i].parameters);
       ProjectedCdfLoss judge = makeLoss(makeTarget(*lobe, plan.jobs[i].family, options.sw),
                                         options.sw.levels.back(), options.sw.seed);
       const Matrix3d m = nodeMatrix(plan.nodes[i], result.jobs[plan.nodes[i].job].m);
       result.jobs[i].symmetricLoss = judge(m, nullptr);
       result.jobs[i].storedLoss = judge(rounded(m), nullptr);
-      return [] {};
     });
   }
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
-#include <stdexcept>
 #include <tuple>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -68,7 +68,7 @@ bool IsotropicTableOptions::isValid(std::string* error) const {
   try {
     const Axis theta = placedAxis("theta", axes[0], thetaNodes);
     return checkEnds(placedAxis("alpha", axes[1], alphaNodes), alphaFloor, theta, thetaMax, error);
-  } catch (const std::invalid_argument& refusal) {
+  } catch (const Refusal& refusal) {
     *error = refusal.what();
     return false;
   }
@@ -87,7 +87,7 @@ bool AnisotropicTableOptions::isValid(std::string* error) const {
     const Axis theta = placedAxis("theta", axes[2], thetaNodes);
     placedAxis("phi", axes[3], phiNodes);
     return checkEnds(alpha, alphaFloor, theta, thetaMax, error);
-  } catch (const std::invalid_argument& refusal) {
+  } catch (const Refusal& refusal) {
     *error = refusal.what();
     return false;
   }

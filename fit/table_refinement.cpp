@@ -2,16 +2,15 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <stdexcept>
 
+#include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "fit/ceres_termination.h"
-#include "fit/parallel_for.h"
 #include "fit/refined_entry.h"
 #include "fit/refinement_points.h"
 #include "fit/refinement_problem.h"
@@ -69,7 +68,7 @@ std::vector<double> parametersOf(const std::vector<RefinedEntry>& entries) {
 void setParameters(const std::vector<double>& values, std::vector<RefinedEntry>* entries) {
   std::size_t size = 0;
   for (const RefinedEntry& e : *entries) size += e.size();
-  if (size != values.size()) throw std::invalid_argument("the refinement to go on with is of another table");
+  if (size != values.size()) throw Refusal("the refinement to go on with is of another table");
   auto from = values.begin();
   for (RefinedEntry& e : *entries) {
     const auto to = from + static_cast<std::ptrdiff_t>(e.size());
@@ -116,13 +115,13 @@ void checkTable(const Table& table, const TablePlan& plan) {
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const LobeParameters& p = plan.jobs[plan.nodes[n].job].parameters;
     if (!(p.alphaY > 0.0 && p.alphaX > 0.0 && p.alphaX <= 1.0))
-      throw std::invalid_argument(fmt::format("node {} has alpha_x = {:g}, alpha_y = {:g}: no lobe of (0, 1]",
-                                              n, p.alphaX, p.alphaY));
+      throw Refusal(fmt::format("node {} has alpha_x = {:g}, alpha_y = {:g}: no lobe of (0, 1]", n, p.alphaX,
+                                p.alphaY));
     const Matrix3d free = projectOnFamily(Matrix3d::Ones(), plan.nodes[n].family);
     for (Eigen::Index k = 0; k < 9; ++k) {
       const std::string name = fmt::format("m{}{}", k / 3, k % 3);
       if (free(k / 3, k % 3) != 0.0 && std::find(channels.begin(), channels.end(), name) == channels.end())
-        throw std::invalid_argument(fmt::format("node {} needs {}, which is no channel", n, name));
+        throw Refusal(fmt::format("node {} needs {}, which is no channel", n, name));
     }
   }
 }
@@ -178,7 +177,7 @@ RefinementResult refineTable(const Table& table, const RefinementOptions& o, con
                              RefinementObserver* observer) {
   const TableInfo& info = table.info();
   if (!table.isIsotropic() && info.stores != MatrixStorage::kM)
-    throw std::invalid_argument("an anisotropic table is refined as it is looked up, by M: it stores Minv");
+    throw Refusal("an anisotropic table is refined as it is looked up, by M: it stores Minv");
   const TablePlan plan = table.isIsotropic()
                              ? planIsotropicTable(info.axes, info.alphaFloor)
                              : planAnisotropicTable(info.axes, info.alphaFloor, SymmetryMode::kDuring);
@@ -249,11 +248,10 @@ std::vector<FreshErrors> errorsAtFreshPoints(const std::vector<const Table*>& ta
   const std::vector<RefinementPoint> points = refinementPoints(info, count, mixSeed(seed, 62), false);
   std::vector<FreshErrors> out(tables.size() + 1);
   const double each = 1.0 / static_cast<double>(count);
-  const int most = threads > 0 ? threads : omp_get_max_threads();
-  std::vector<LookUpSamples> samples(static_cast<std::size_t>(most), LookUpSamples(options));
+  std::vector<LookUpSamples> samples(static_cast<std::size_t>(threadCount(threads)), LookUpSamples(options));
   std::vector<std::vector<FreshErrors>> all(count, out);
-  parallelFor(count, most, [&](std::size_t i) {
-    LookUpSamples& own = samples[static_cast<std::size_t>(omp_get_thread_num())];
+  parallelFor(count, {.threads = threads}, [&](std::size_t i, std::size_t slot) {
+    LookUpSamples& own = samples[slot];
     const LookUpLoss loss(points[i].parameters, info.brdf, options, mixSeed(mixSeed(seed, 63), i), own);
     for (std::size_t t = 0; t < out.size(); ++t) {
       FreshErrors& e = all[i][t];
@@ -267,7 +265,6 @@ std::vector<FreshErrors> errorsAtFreshPoints(const std::vector<const Table*>& ta
       }
       e.swRel = e.mean.sw / loss.spread();
     }
-    return [] {};
   });
   for (const std::vector<FreshErrors>& point : all) {
     for (std::size_t t = 0; t < out.size(); ++t) {

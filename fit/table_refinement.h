@@ -84,7 +84,7 @@ class RefinementObserver {
 ///
 /// Look-ups are drawn evenly over the axes: uniformly in alpha, lambda, theta and phi, in sqrt(alpha) and
 /// sqrt(1 - cos theta) for isotropic tables, more of less weight where lobes change fast. `resumed`, or null:
-/// where an earlier call of the same arguments stood. `options` valid. Throws std::invalid_argument for an
+/// where an earlier call of the same arguments stood. `options` valid. Throws Refusal for an
 /// unknown brdf, an anisotropic table that does not store M, one whose nodes are no LTCs with det > 0, or no
 /// lobes (alpha 0), or whose channels leave out what refinement would change, and a `resumed` of another
 /// table.

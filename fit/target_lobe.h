@@ -10,7 +10,7 @@
 namespace ltcfit {
 
 /// The lobe of a table's brdf (TableInfo::brdf) at these parameters. The one place where lobes are named: a
-/// new one is added here. Throws std::invalid_argument for an unknown name.
+/// new one is added here. Throws Refusal for an unknown name.
 std::unique_ptr<Lobe> makeTargetLobe(std::string_view brdf, const LobeParameters& parameters);
 
 }  // namespace ltcfit

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <optional>
+
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 
@@ -96,9 +96,8 @@ ContourIntegrator::ContourIntegrator(const Lobe& lobe, const ContourIntegratorOp
       nothing_(kNull * kNull * map_.centre.squaredNorm()),
       axis_(lobe.stretchedAzimuth()) {
   if (options.azimuths < 16 || options.azimuths % 4 != 0 || options.radii < 4 || !(options.tolerance > 0.0)) {
-    std::fprintf(stderr, "ContourIntegrator: azimuths = %d, radii = %d, tolerance = %g\n", options.azimuths,
-                 options.radii, options.tolerance);
-    std::abort();
+    abortWith("ContourIntegrator: azimuths = %d, radii = %d, tolerance = %g", options.azimuths, options.radii,
+              options.tolerance);
   }
   const int rays = options.azimuths / 4;
   const double h = 1.0 / options.radii;

@@ -3,10 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
 
+#include "base/diagnostics.h"
 #include "ggx/sin_cos.h"
 
 namespace ltcfit {
@@ -37,10 +36,8 @@ GgxLobe::GgxLobe(const Vector3d& wo, GgxAlpha alpha)
     : Lobe(wo), alpha_(alpha), stretchedWo_(stretchedLength(wo, alpha)) {
   const bool unit = std::abs(wo.squaredNorm() - 1.0) < 1e-9;
   if (!unit || !(wo.z() >= 0.0) || !(alpha.x > 0.0) || !(alpha.y > 0.0) || alpha.x > 1.0 || alpha.y > 1.0) {
-    std::fprintf(
-        stderr, "GgxLobe: wo = (%g, %g, %g), alpha = (%g, %g): need a unit wo with z >= 0, alpha in (0, 1]\n",
-        wo.x(), wo.y(), wo.z(), alpha.x, alpha.y);
-    std::abort();
+    abortWith("GgxLobe: wo = (%g, %g, %g), alpha = (%g, %g): need a unit wo with z >= 0, alpha in (0, 1]",
+              wo.x(), wo.y(), wo.z(), alpha.x, alpha.y);
   }
 }
 

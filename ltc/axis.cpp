@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+
+#include "base/refusal.h"
 
 namespace ltcfit {
 
@@ -52,8 +53,7 @@ AxisMap axisMapFromName(std::string_view name) {
   for (AxisMap map : {AxisMap::kLinear, AxisMap::kSqrt, AxisMap::kSqrtOneMinusCos}) {
     if (axisMapName(map) == name) return map;
   }
-  throw std::invalid_argument("unknown axis map '" + std::string(name) +
-                              "' (linear, sqrt or sqrt-one-minus-cos)");
+  throw Refusal("unknown axis map '" + std::string(name) + "' (linear, sqrt or sqrt-one-minus-cos)");
 }
 
 double leastDensity(const AxisWarp& warp) {
@@ -135,8 +135,8 @@ Axis makeAxis(std::string name, std::string unit, AxisMap map, std::size_t n, do
   for (std::size_t i = 0; i < n; ++i) {
     axis.values[i] = std::max(floor, axis.valueFromTexel(static_cast<double>(i)));
     if (i > 0 && !(axis.values[i] > axis.values[i - 1])) {
-      throw std::invalid_argument("axis '" + axis.name + "': a floor of " + std::to_string(floor) +
-                                  " makes nodes coincide: lower it or use fewer nodes");
+      throw Refusal("axis '" + axis.name + "': a floor of " + std::to_string(floor) +
+                    " makes nodes coincide: lower it or use fewer nodes");
     }
   }
   return axis;

@@ -23,7 +23,7 @@ double mapCoordinate(AxisMap map, double v);
 double unmapCoordinate(AxisMap map, double u);
 
 /// The name in the table file ("linear", "sqrt", "sqrt-one-minus-cos"; "" for kNone), and back. An unknown
-/// name throws std::invalid_argument.
+/// name throws Refusal.
 std::string_view axisMapName(AxisMap map);
 AxisMap axisMapFromName(std::string_view name);
 
@@ -69,7 +69,7 @@ struct Axis {
 };
 
 /// An axis of n >= 2 nodes, spaced in `map` from low to high as `warp` (monotone) says, values clamped from
-/// below to `floor`. Throws std::invalid_argument where the floor would make two nodes coincide.
+/// below to `floor`. Throws Refusal where the floor would make two nodes coincide.
 Axis makeAxis(std::string name, std::string unit, AxisMap map, std::size_t n, double low, double high,
               double floor = 0.0, const AxisWarp& warp = {});
 

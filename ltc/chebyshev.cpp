@@ -3,10 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -95,7 +95,7 @@ TableEntry ChebyshevForm::evaluate(const LobeParameters& parameters) const {
 }
 
 void checkChebyshev(const ChebyshevForm& form) {
-  const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
+  const auto fail = [](const std::string& what) { throw Refusal(what); };
   if (!(form.alphaFloor > 0.0 && form.alphaFloor < 1.0)) fail("alpha_floor is not between 0 and 1");
   for (std::size_t f = 0; f < kChebyshevFunctions; ++f) {
     const std::string name(chebyshevFunctionName(static_cast<ChebyshevFunction>(f)));

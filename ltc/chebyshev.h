@@ -59,7 +59,7 @@ struct ChebyshevForm {
   TableEntry evaluate(const LobeParameters& parameters) const;
 };
 
-/// Throws std::invalid_argument naming what is wrong: a floor outside of (0, 1), too many rows or columns, a
+/// Throws Refusal naming what is wrong: a floor outside of (0, 1), too many rows or columns, a
 /// coefficient that is not finite, and, on a grid of 65 x 65 points, values that are not finite, a width of
 /// 0.01 or less (det M > 0 is lost soon after), or a tilt e_n at or below the horizon.
 void checkChebyshev(const ChebyshevForm& form);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -72,9 +72,7 @@ double spreadOf(const Directions& directions) {
 // The lobe as the form's matrices have it: unit third column, apertures positive. M diag(+-1, +-1, 1) is the
 // same lobe.
 Matrix3d oriented(const TableEntry& entry, std::size_t node) {
-  const auto refuse = [&](const char* what) {
-    throw std::invalid_argument("node " + std::to_string(node) + " " + what);
-  };
+  const auto refuse = [&](const char* what) { throw Refusal("node " + std::to_string(node) + " " + what); };
   if (!entry.invertible) refuse("has no inverse");
   Matrix3d m = normalized(entry.m, MatrixNormalization::kThirdColumnUnit);
   if (m(0, 1) != 0.0 || m(1, 0) != 0.0 || m(1, 2) != 0.0 || m(2, 1) != 0.0)
@@ -258,7 +256,7 @@ VectorXd roundedSolution(const NormalEquations& equations, const std::vector<Eig
   const std::vector<Eigen::Index> order(chosen.rbegin(), chosen.rend());
   const Eigen::LLT<MatrixXd> factors(MatrixXd(equations.matrix(order, order)));
   if (factors.info() != Eigen::Success)
-    throw std::invalid_argument("the table's nodes are too few for that many coefficients");
+    throw Refusal("the table's nodes are too few for that many coefficients");
   const MatrixXd upper = factors.matrixU();
   const VectorXd right = factors.matrixL().solve(VectorXd(equations.right(order)));
   VectorXd solution = VectorXd::Zero(kUnknowns);
@@ -286,7 +284,7 @@ void setRows(const VectorXd& solution, const std::vector<Eigen::Index>& chosen, 
 Node nodeOf(const Table& table, std::size_t row, std::size_t column, double weight) {
   const std::array<std::size_t, 2> at{row, column};
   const TableEntry entry = table.entry(at);
-  if (!entry.norm || !entry.fresnel) throw std::invalid_argument("the table has no norm and Fresnel");
+  if (!entry.norm || !entry.fresnel) throw Refusal("the table has no norm and Fresnel");
   const LobeParameters p = table.parameters(at);
   Node node;
   node.alpha = p.alphaX;
@@ -304,15 +302,14 @@ Node nodeOf(const Table& table, std::size_t row, std::size_t column, double weig
 template <class Function>
 void forRowsOfNodes(const Table& table, const Function& f) {
   if (!table.isIsotropic())
-    throw std::invalid_argument(
-        "the Chebyshev form is for isotropic tables (axes theta, alpha); this one has four axes");
+    throw Refusal("the Chebyshev form is for isotropic tables (axes theta, alpha); this one has four axes");
   if (!(table.info().alphaFloor > 0.0 && table.info().alphaFloor < 1.0))
-    throw std::invalid_argument("the Chebyshev form needs an alpha floor between 0 and 1");
+    throw Refusal("the Chebyshev form needs an alpha floor between 0 and 1");
   const std::vector<double>& theta = table.info().axes[0].values;
   const std::vector<double>& alpha = table.info().axes[1].values;
   if (theta.front() > kEndSlack || theta.back() < kHalfPi - kEndSlack || alpha.front() > kEndSlack ||
       alpha.back() < 1.0 - kEndSlack)
-    throw std::invalid_argument(
+    throw Refusal(
         "the Chebyshev form needs a table over all of alpha and theta: beyond its nodes polynomials go where "
         "they like");
   const std::vector<double> heights = cellWidths(table.info().axes[0], AxisMap::kSqrtOneMinusCos);
@@ -340,13 +337,12 @@ struct Mean {
 
 ChebyshevForm fitChebyshev(const Table& table, const ChebyshevOptions& options) {
   if (options.coefficients < kLeastCoefficients || options.coefficients > kMostCoefficients)
-    throw std::invalid_argument(std::to_string(options.coefficients) + " coefficients: need " +
-                                std::to_string(kLeastCoefficients) + " to " +
-                                std::to_string(kMostCoefficients));
+    throw Refusal(std::to_string(options.coefficients) + " coefficients: need " +
+                  std::to_string(kLeastCoefficients) + " to " + std::to_string(kMostCoefficients));
   if (options.coefficients > kCoefficientsPerNode * table.nodeCount())
-    throw std::invalid_argument(std::to_string(options.coefficients) + " coefficients are too many for " +
-                                std::to_string(table.nodeCount()) + " nodes; " +
-                                std::to_string(kCoefficientsPerNode * table.nodeCount()) + " at most");
+    throw Refusal(std::to_string(options.coefficients) + " coefficients are too many for " +
+                  std::to_string(table.nodeCount()) + " nodes; " +
+                  std::to_string(kCoefficientsPerNode * table.nodeCount()) + " at most");
   NormalEquations equations;
   forRowsOfNodes(table, [&](const std::vector<Node>& nodes) { addNodes(nodes, equations); });
   const std::vector<Eigen::Index> chosen = chooseTerms(equations, options.coefficients);
@@ -357,9 +353,9 @@ ChebyshevForm fitChebyshev(const Table& table, const ChebyshevOptions& options) 
   setRows(roundedSolution(equations, chosen, options.round), chosen, form);
   try {
     checkChebyshev(form);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + " (of " + std::to_string(options.coefficients) +
-                                " coefficients; another number may do)");
+  } catch (const Refusal& error) {
+    throw Refusal(std::string(error.what()) + " (of " + std::to_string(options.coefficients) +
+                  " coefficients; another number may do)");
   }
   return form;
 }

@@ -35,7 +35,7 @@ ChebyshevDifference chebyshevDifference(const ChebyshevForm& form, const Table& 
 /// What is minimised is the squared shift of the lobe to first order, plus the squared errors of norm and
 /// Fresnel. Terms are chosen one row's next one to three at a time, those that lower the sum most for each
 /// coefficient, with all others free; rounding goes backwards through the triangular system, so that what
-/// one loses the next ones take up. Throws std::invalid_argument for an anisotropic table, one over a part of
+/// one loses the next ones take up. Throws Refusal for an anisotropic table, one over a part of
 /// alpha and theta, without norm and Fresnel, an alpha floor of 0, entries off the plane of incidence or
 /// without an inverse, lobes that lean below the horizon, more coefficients than three a node, and too few
 /// coefficients to keep det M > 0 everywhere (checkChebyshev).

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
+
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 
@@ -25,9 +25,8 @@ Vector3d sampleCosine(const Eigen::Vector2d& u) {
 
 Ltc::Ltc(const Matrix3d& m) : m_(m), mInv_(m.inverse()), det_(m.determinant()) {
   if (!mInv_.allFinite() || !(std::abs(det_) > 0.0)) {
-    std::fprintf(stderr, "Ltc: singular matrix [%g %g %g; %g %g %g; %g %g %g]\n", m(0, 0), m(0, 1), m(0, 2),
-                 m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2));
-    std::abort();
+    abortWith("Ltc: singular matrix [%g %g %g; %g %g %g; %g %g %g]", m(0, 0), m(0, 1), m(0, 2), m(1, 0),
+              m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2));
   }
 }
 

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
+
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -30,7 +31,7 @@ void refuseBeyond(const TableInfo& is, const TableInfo& wanted) {
     text << "axis '" << is.axes[a].name << "' goes from " << has.low << " to " << has.high
          << " in this table, and " << asked.low << " to " << asked.high
          << " is asked for: nothing is known beyond its ends";
-    throw std::invalid_argument(text.str());
+    throw Refusal(text.str());
   }
 }
 
@@ -53,8 +54,7 @@ AxisReach reachOf(const TableInfo& info, std::size_t axis) {
 
 Table resampled(const Table& table, std::vector<Axis> axes) {
   TableInfo info = table.info();
-  if (axes.size() != info.axes.size())
-    throw std::invalid_argument("the new axes are of another kind than the table's");
+  if (axes.size() != info.axes.size()) throw Refusal("the new axes are of another kind than the table's");
   std::string source;
   for (const Axis& axis : info.axes) {
     if (!source.empty()) source += " x ";
@@ -71,7 +71,7 @@ Table resampled(const Table& table, std::vector<Axis> axes) {
   data.reserve(target.data().size());
   for (std::size_t i = 0; i < nodes; ++i) {
     const TableEntry entry = table.fetch(texelParameters(target.info(), target.node(i)));
-    if (!entry.invertible) throw std::invalid_argument("node " + std::to_string(i) + " has no inverse");
+    if (!entry.invertible) throw Refusal("node " + std::to_string(i) + " has no inverse");
     const Eigen::Matrix3d m =
         normalized(info.stores == MatrixStorage::kM ? entry.m : entry.mInv, info.normalization);
     for (const std::string& channel : info.channels) {

@@ -18,7 +18,7 @@ AxisReach reachOf(const TableInfo& info, std::size_t axis);
 
 /// The table looked up at the texels of other axes of the same kind, stored as before (M or its inverse,
 /// scaled alike). Between nodes it carries the interpolation error of the source; a new fit does not. Throws
-/// std::invalid_argument where a look-up has no inverse, for axes of another kind, and for an axis that goes
+/// Refusal where a look-up has no inverse, for axes of another kind, and for an axis that goes
 /// beyond the table's own.
 Table resampled(const Table& table, std::vector<Axis> axes);
 

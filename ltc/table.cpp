@@ -3,16 +3,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 #include "ltc/symmetry.h"
 
 namespace ltcfit {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-  throw std::invalid_argument(what);
+  throw Refusal(what);
 }
 
 struct AxisRange {

@@ -23,7 +23,7 @@ enum class MatrixNormalization {
 };
 
 /// Names in the table file: "M", "Minv"; "none", "third-column-unit", "middle-element". The reverse functions
-/// throw std::invalid_argument for an unknown name.
+/// throw Refusal for an unknown name.
 std::string_view matrixStorageName(MatrixStorage storage);
 std::string_view matrixNormalizationName(MatrixNormalization normalization);
 MatrixStorage matrixStorageFromName(std::string_view name);
@@ -86,7 +86,7 @@ LookUpNodes lookUpNodes(const std::vector<Axis>& axes, const LobeParameters& par
 /// An immutable, checked table.
 class Table {
  public:
-  /// Throws std::invalid_argument naming the field: unknown or doubled channels, no matrix, axes other than
+  /// Throws Refusal naming the field: unknown or doubled channels, no matrix, axes other than
   /// the two sets above, no nodes, values that do not increase or leave their range, a map that
   /// does not fit the values, a count that is not the product, a number that is not finite.
   Table(TableInfo info, std::vector<float> data);
@@ -130,7 +130,7 @@ class Table {
 /// they are. This is how a table is read by shaders that interpolate the inverse (the layout of 2017):
 /// between nodes the two differ. Channels: m00, m02, m11, m20, m22 where all other entries are 0, else all
 /// nine. For kMiddleElement a matrix whose element (1, 1) is negative is replaced by the equivalent one with
-/// a flip of y. Throws std::invalid_argument for a node without an inverse, or with one that does not fit
+/// a flip of y. Throws Refusal for a node without an inverse, or with one that does not fit
 /// float32.
 Table storedAs(const Table& table, MatrixStorage stores, MatrixNormalization normalization);
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/refusal.h"
 #include "render/gl_context.h"
 
 namespace ltcfit {
@@ -24,7 +25,7 @@ bool isTextured(const Scene& scene) {
 
 void check(const Scene& scene, bool isotropicTable, bool hasFresnel, std::size_t textures) {
   const auto fail = [&](const std::string& what) {
-    throw std::invalid_argument(fmt::format("scene '{}': {}", scene.name, what));
+    throw Refusal(fmt::format("scene '{}': {}", scene.name, what));
   };
   if (scene.surfaces.empty() || scene.surfaces.size() > kMaxSurfaces)
     fail(fmt::format("{} surfaces, not 1 to {}", scene.surfaces.size(), kMaxSurfaces));

@@ -20,7 +20,7 @@ namespace ltcfit {
 inline constexpr std::size_t kMaxLightTextures = 4;
 
 /// Needs a current context, the same for all calls and the destructor: a GlContext or a window's. All throw
-/// GlError, and std::invalid_argument for scenes without surfaces or lights, with more of them than there is
+/// GlError, and Refusal for scenes without surfaces or lights, with more of them than there is
 /// room for (scene.h), with anisotropic materials where the table is isotropic, with an f0 below 1 where it
 /// has no fresnel, or with lights of a texture that was not given.
 class GlRenderer {

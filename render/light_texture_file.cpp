@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/little_endian.h"
 
 namespace ltcfit {
@@ -21,7 +21,7 @@ LightTextureFile toLightTextureFile(const PrefilteredTexture& texture, Precision
         auto value = static_cast<float>(channel);
         if (precision == Precision::kHalf) value = halfValue(halfBits(value));
         if (!std::isfinite(value)) {
-          throw std::invalid_argument(
+          throw Refusal(
               fmt::format("a radiance of {:.6g} is too large for {}", channel,
                           precision == Precision::kHalf ? "half precision; take --float" : "float32"));
         }

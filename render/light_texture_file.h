@@ -6,7 +6,7 @@
 
 namespace ltcfit {
 
-/// Rounded to the precision. Throws std::invalid_argument for values that it cannot hold.
+/// Rounded to the precision. Throws Refusal for values that it cannot hold.
 LightTextureFile toLightTextureFile(const PrefilteredTexture& texture, Precision precision);
 
 /// The numbers as the file has them.

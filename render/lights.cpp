@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
+#include "base/refusal.h"
 #include "ltc/quad.h"
 
 namespace ltcfit {
@@ -32,7 +32,7 @@ LightShape lightShapeFromName(std::string_view name) {
   if (name == "quad") return LightShape::kQuad;
   if (name == "star") return LightShape::kStar;
   if (name == "disk-as-polygon") return LightShape::kDisk;
-  throw std::invalid_argument("no light is named " + std::string(name));
+  throw Refusal("no light is named " + std::string(name));
 }
 
 PolygonLight makeLight(LightShape shape, const Eigen::Vector3d& centre, const Eigen::Vector3d& facing,

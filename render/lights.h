@@ -12,7 +12,7 @@ namespace ltcfit {
 /// "disk-as-polygon" (24 vertices, of the disk's area).
 enum class LightShape { kQuad, kStar, kDisk };
 
-/// Throws std::invalid_argument for another name.
+/// Throws Refusal for another name.
 LightShape lightShapeFromName(std::string_view name);
 
 /// A one-sided light of radiance 1 at `centre` that emits along `facing` (any length > 0), turned by `angle`

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 namespace {
@@ -23,9 +23,8 @@ double brightest(const Film& film) {
 
 PictureError pictureError(const Film& film, const Film& reference, double peak) {
   if (film.width != reference.width || film.height != reference.height) {
-    std::fprintf(stderr, "pictureError: %zu x %zu against %zu x %zu\n", film.width, film.height,
-                 reference.width, reference.height);
-    std::abort();
+    abortWith("pictureError: %zu x %zu against %zu x %zu", film.width, film.height, reference.width,
+              reference.height);
   }
   PictureError e;
   double squares = 0.0;

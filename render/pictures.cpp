@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
+#include "base/diagnostics.h"
 #include "render/letters.h"
 
 namespace ltcfit {
@@ -61,10 +60,8 @@ Picture toPicture(const Film& film, std::size_t zoom) {
 }
 
 Film difference(const Film& a, const Film& b, double gain) {
-  if (a.width != b.width || a.height != b.height) {
-    std::fprintf(stderr, "difference: %zu x %zu and %zu x %zu\n", a.width, a.height, b.width, b.height);
-    std::abort();
-  }
+  if (a.width != b.width || a.height != b.height)
+    abortWith("difference: %zu x %zu and %zu x %zu", a.width, a.height, b.width, b.height);
   Film out(a.width, a.height);
   out.kinds = a.kinds;
   for (std::size_t i = 0; i < a.radiance.size(); ++i)

@@ -1,13 +1,14 @@
 #include "render/prefilter.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+
+#include "base/parallel_for.h"
+#include "base/refusal.h"
 
 namespace ltcfit {
 namespace {
@@ -69,10 +70,18 @@ Weights weightsAt(double centre, double sigma, std::size_t count) {
   return weights;
 }
 
+// How the rows of an image are shared among threads.
+ParallelOptions rowsOf(std::size_t size, int threads) {
+  return {.threads = size >= kParallelSize ? threads : 1, .chunk = 4};
+}
+
 class Filter {
  public:
-  Filter(const LightTexture& picture, const PrefilterOptions& options, int threads)
-      : picture_(picture), margin_(options.margin), root_(std::sqrt(options.aspect)), threads_(threads) {}
+  Filter(const LightTexture& picture, const PrefilterOptions& options)
+      : picture_(picture),
+        margin_(options.margin),
+        root_(std::sqrt(options.aspect)),
+        threads_(options.threads) {}
 
   double coordinate(std::size_t i, std::size_t size) const {
     return (static_cast<double>(i) + 0.5) / static_cast<double>(size) * (1.0 + 2.0 * margin_) - margin_;
@@ -87,8 +96,7 @@ class Filter {
     }
     PrefilteredLevel out{size, std::vector<Eigen::Vector3d>(size * size)};
     const auto width = static_cast<Eigen::Index>(picture_.width);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(threads_) if (size >= kParallelSize)
-    for (std::size_t y = 0; y < size; ++y) {
+    parallelFor(size, rowsOf(size, threads_), [&](std::size_t y) {
       Eigen::Matrix3Xd row = Eigen::Matrix3Xd::Zero(3, width);
       for (Eigen::Index r = 0; r < down[y].values.size(); ++r) {
         const Eigen::Vector3d* const from =
@@ -100,7 +108,7 @@ class Filter {
         out.texels[y * size + x] =
             row.middleCols(static_cast<Eigen::Index>(w.first), w.values.size()) * w.values;
       }
-    }
+    });
     return out;
   }
 
@@ -124,21 +132,20 @@ double finestSigma(std::size_t size, const PrefilterOptions& options) {
 
 std::size_t sizeFor(const LightTexture& picture, const PrefilterOptions& options) {
   if (picture.width == 0 || picture.height == 0 || picture.texels.size() != picture.width * picture.height)
-    throw std::invalid_argument("the picture has no texels, or not as many as its size says");
+    throw Refusal("the picture has no texels, or not as many as its size says");
   if (!(options.margin >= 0.0 && options.margin <= 4.0))
-    throw std::invalid_argument(fmt::format("margin {}: need 0 to 4", options.margin));
+    throw Refusal(fmt::format("margin {}: need 0 to 4", options.margin));
   if (!(options.spread >= 0.1 && options.spread <= 10.0))
-    throw std::invalid_argument(fmt::format("spread {}: need 0.1 to 10", options.spread));
+    throw Refusal(fmt::format("spread {}: need 0.1 to 10", options.spread));
   if (!(options.aspect >= 1.0 / 64.0 && options.aspect <= 64.0))
-    throw std::invalid_argument(fmt::format("aspect {}: need 1/64 to 64", options.aspect));
+    throw Refusal(fmt::format("aspect {}: need 1/64 to 64", options.aspect));
   if (options.size == 0) {
     const auto along = static_cast<double>(std::max(picture.width, picture.height));
     const auto wanted = static_cast<std::size_t>(std::ceil(along * (1.0 + 2.0 * options.margin) - 1e-9));
     return std::clamp<std::size_t>(std::bit_ceil(wanted), 4, kMaxSize);
   }
   if (!std::has_single_bit(options.size) || options.size < 4 || options.size > kMaxSize)
-    throw std::invalid_argument(
-        fmt::format("size {}: need a power of two from 4 to {}", options.size, kMaxSize));
+    throw Refusal(fmt::format("size {}: need a power of two from 4 to {}", options.size, kMaxSize));
   return options.size;
 }
 
@@ -171,8 +178,7 @@ double sigmaOfLod(const PrefilteredTexture& texture, double lod) {
 
 PrefilteredTexture prefilter(const LightTexture& picture, const PrefilterOptions& options) {
   const std::size_t size = sizeFor(picture, options);
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
-  const Filter filter(picture, options, threads);
+  const Filter filter(picture, options);
   const double finest = kPrefilterSigma * (1.0 + 2.0 * options.margin) / static_cast<double>(size);
   const auto count = static_cast<std::size_t>(std::bit_width(size));
   const auto sigmaOf = [&](std::size_t level) { return std::ldexp(finest, static_cast<int>(level)); };
@@ -196,8 +202,7 @@ PrefilteredTexture prefilter(const LightTexture& picture, const PrefilterOptions
     for (std::size_t k = 0; k <= j; ++k) {
       PrefilteredLevel& level = out.levels[k];
       const double scale = static_cast<double>(image.size) / static_cast<double>(level.size);
-#pragma omp parallel for schedule(static) num_threads(threads) if (level.size >= kParallelSize)
-      for (std::size_t y = 0; y < level.size; ++y) {
+      parallelFor(level.size, rowsOf(level.size, options.threads), [&](std::size_t y) {
         for (std::size_t x = 0; x < level.size; ++x) {
           const double weight = 1.0 - std::abs(ownLevel(k, x, y) - static_cast<double>(j));
           Eigen::Vector3d& texel = level.texels[y * level.size + x];
@@ -208,7 +213,7 @@ PrefilteredTexture prefilter(const LightTexture& picture, const PrefilterOptions
                                        (static_cast<double>(y) + 0.5) * scale - 0.5);
           }
         }
-      }
+      });
     }
   }
   return out;

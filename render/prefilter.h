@@ -59,7 +59,7 @@ Eigen::Vector3d bilinear(const PrefilteredLevel& level, double x, double y);
 /// integrated over the picture alone and normalised there. Distances and sigma are those on a light of the
 /// option's aspect and unit area. Inside the picture levels are exact; in the margin a sigma between those of
 /// two levels is blended from both, linearly in log2(sigma), as the sampler blends. Does not depend on the
-/// number of threads. Throws std::invalid_argument for options out of range and for empty pictures.
+/// number of threads. Throws Refusal for options out of range and for empty pictures.
 PrefilteredTexture prefilter(const LightTexture& picture, const PrefilterOptions& options);
 
 }  // namespace ltcfit

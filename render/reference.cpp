@@ -1,16 +1,15 @@
 #include "render/reference.h"
 
 #include <fmt/core.h>
-#include <omp.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 
+#include "base/diagnostics.h"
+#include "base/parallel_for.h"
 #include "render/direct_light.h"
 
 namespace ltcfit {
@@ -99,8 +98,7 @@ ReferenceFilm renderReference(const Scene& scene, const ReferenceOptions& option
                               const ReferenceProgress& progress) {
   std::string error;
   if (!options.isValid(&error)) {
-    std::fprintf(stderr, "renderReference: %s\n", error.c_str());
-    std::abort();
+    abortWith("renderReference: %s", error.c_str());
   }
   ReferenceFilm out;
   out.film = Film(scene.camera.width, scene.camera.height);
@@ -119,43 +117,41 @@ ReferenceFilm renderReference(const Scene& scene, const ReferenceOptions& option
   out.surfacePixels = pixels.size();
   out.reachedTarget = pixels.empty();
 
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   const double target = options.targetRmse * options.targetRmse * static_cast<double>(pixels.size());
   std::size_t done = 0;
   std::size_t total = pixels.size() * options.minSamples;
   std::vector<Pixel*> round;
   for (Pixel& pixel : pixels) round.push_back(&pixel);
+  const DirectLight unlit(scene, planes, options.sampling);
+  std::vector<DirectLight> lights(static_cast<std::size_t>(threadCount(options.threads)), unlit);
   while (!round.empty()) {
-#pragma omp parallel num_threads(threads)
-    {
-      DirectLight light(scene, planes, options.sampling);
-#pragma omp for schedule(dynamic, 1)
-      for (std::size_t begin = 0; begin < round.size(); begin += kChunk) {
-        std::size_t taken = 0;
-        for (std::size_t k = begin; k < std::min(begin + kChunk, round.size()); ++k) {
-          Pixel& pixel = *round[k];
-          const std::size_t upTo = std::max(options.minSamples, 2 * pixel.samples);
-          const auto first = static_cast<std::uint32_t>(pixel.samples / options.replicates);
-          const auto count = static_cast<std::uint32_t>(upTo / options.replicates) - first;
-          light.setPoint(pixel.point);
-          if (light.isLit()) {
-            for (std::size_t r = 0; r < options.replicates; ++r)
-              pixel.sums[r] += light.sum(mixSeed(mixSeed(options.seed, pixel.index), r), first, count);
-          }
-          taken += upTo - pixel.samples;
-          pixel.samples = upTo;
-          Vector3d mean = Vector3d::Zero();
-          for (const Vector3d& sum : pixel.sums) mean += sum / static_cast<double>(upTo);
-          pixel.variance = varianceOf(pixel, mean);
-          out.film.radiance[pixel.index] = mean;
-          out.standardError[pixel.index] = std::sqrt(pixel.variance);
+    const std::size_t chunks = (round.size() + kChunk - 1) / kChunk;
+    parallelFor(chunks, {.threads = options.threads}, [&](std::size_t chunk, std::size_t slot) {
+      DirectLight& light = lights[slot];
+      const std::size_t begin = chunk * kChunk;
+      std::size_t taken = 0;
+      for (std::size_t k = begin; k < std::min(begin + kChunk, round.size()); ++k) {
+        Pixel& pixel = *round[k];
+        const std::size_t upTo = std::max(options.minSamples, 2 * pixel.samples);
+        const auto first = static_cast<std::uint32_t>(pixel.samples / options.replicates);
+        const auto count = static_cast<std::uint32_t>(upTo / options.replicates) - first;
+        light.setPoint(pixel.point);
+        if (light.isLit()) {
+          for (std::size_t r = 0; r < options.replicates; ++r)
+            pixel.sums[r] += light.sum(mixSeed(mixSeed(options.seed, pixel.index), r), first, count);
         }
-        if (progress) {
-#pragma omp critical(ltcfit_reference_progress)
-          progress(done += taken, total);
-        }
+        taken += upTo - pixel.samples;
+        pixel.samples = upTo;
+        Vector3d mean = Vector3d::Zero();
+        for (const Vector3d& sum : pixel.sums) mean += sum / static_cast<double>(upTo);
+        pixel.variance = varianceOf(pixel, mean);
+        out.film.radiance[pixel.index] = mean;
+        out.standardError[pixel.index] = std::sqrt(pixel.variance);
       }
-    }
+      return [&, taken] {
+        if (progress) progress(done += taken, total);
+      };
+    });
     round.clear();
     const std::vector<double> variances = guardedVariances(pixels, out.film);
     out.reachedTarget = std::accumulate(variances.begin(), variances.end(), 0.0) <= target;

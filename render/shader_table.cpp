@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 #include "export/atomic_file.h"
 #include "export/packing.h"
 #include "export/read_table.h"
@@ -121,7 +121,7 @@ ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
     if (amplitudes != nullptr && amplitudes->isIsotropic() == file.table.isIsotropic())
       added = missingIn(file.table, *amplitudes);
     if (!added.empty()) file.table = withAmplitudes(file.table, *amplitudes, added);
-    if (!has(file.table, "norm")) throw std::invalid_argument("has no norm to shade with");
+    if (!has(file.table, "norm")) throw Refusal("has no norm to shade with");
     const bool standard = hasShaderAxes(file.table) && has(file.table, "fresnel");
     std::optional<ShaderLookup> lookup;
     if (!standard) lookup = makeShaderLookup(file.table.info(), ShadingLanguage::kGlsl, "ltcTable");
@@ -142,7 +142,7 @@ ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
                                       : fmt::format("; {} of another table", fmt::join(added, " and ")),
                         limitsText(file.table)),
             std::move(lookup)};
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     throw InputError(fmt::format("{}: {}", path, error.what()));
   }
 }

@@ -25,7 +25,7 @@ std::vector<ShaderVariant> shaderVariants();
 
 /// The look-up made for one table (makeShaderLookup): alone, after that of ltc.glsl alone, and with a quad by
 /// F0 = 1 and, if it has fresnel, by Schlick's Fresnel. Alone means from roughness and N.V, or alphas and
-/// view, to the entry. std::invalid_argument for tables that have none.
+/// view, to the entry. Refusal for tables that have none.
 std::vector<ShaderVariant> lookupVariants(const TableInfo& info);
 
 struct ShaderVariantCost {

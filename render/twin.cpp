@@ -1,7 +1,6 @@
 #include "render/twin.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "ltc/polygon.h"
 #include "ltc/sphere.h"
 #include "render/textured_light.h"
@@ -120,7 +121,7 @@ Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& optio
   const std::vector<std::string>& channels = table.info().channels;
   const auto need = [&](const char* channel) {
     if (std::find(channels.begin(), channels.end(), channel) == channels.end())
-      throw std::invalid_argument(fmt::format("the table has no {}", channel));
+      throw Refusal(fmt::format("the table has no {}", channel));
   };
   need("norm");
   if (scene.needsFresnel()) need("fresnel");
@@ -133,9 +134,7 @@ Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& optio
   }
   const Shading shading{scene, table, options, SphereTable()};
   Film film(scene.camera.width, scene.camera.height);
-#pragma omp parallel for schedule(dynamic, 1) \
-    num_threads(options.threads > 0 ? options.threads : omp_get_max_threads())
-  for (std::size_t row = 0; row < film.height; ++row) {
+  parallelFor(film.height, {.threads = options.threads}, [&](std::size_t row) {
     for (std::size_t column = 0; column < film.width; ++column) {
       const PixelView view = viewPixel(scene, column, row);
       const std::size_t pixel = row * film.width + column;
@@ -143,7 +142,7 @@ Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& optio
       if (view.kind == PixelKind::kLight) film.radiance[pixel] = view.radiance;
       if (view.kind == PixelKind::kSurface) film.radiance[pixel] = shadeByTable(shading, view.point);
     }
-  }
+  });
   return film;
 }
 

@@ -37,8 +37,8 @@ struct TwinOptions {
 /// et al. 2016, eq. 10 and 11), 0 behind a one-sided light and where all of a light is below the surface's
 /// horizon; colour the fetch of a texture (section 5.4), 1 without one. The cosine's integral is always
 /// clipped exactly. `table` as the shader reads it (storedAs); an isotropic one reads alpha.x(). Where a
-/// look-up has no inverse the lobe adds nothing. Throws std::invalid_argument: a table without norm,
-/// or without fresnel where some f0 is below 1, a light whose texture is not given.
+/// look-up has no inverse the lobe adds nothing. Throws Refusal for a table without norm,
+/// or without fresnel where some f0 is below 1, std::invalid_argument for a light whose texture is not given.
 Film renderTwin(const Scene& scene, const Table& table, const TwinOptions& options = {});
 
 }  // namespace ltcfit

@@ -5,10 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "base/angles.h"
+#include "base/diagnostics.h"
 
 namespace ltcfit {
 namespace {
@@ -45,10 +44,7 @@ const char* nameOf(std::optional<LightShape> shape) {
 
 Viewer::Viewer(std::vector<Scene> scenes, bool isotropic)
     : scenes_(std::move(scenes)), isotropic_(isotropic) {
-  if (scenes_.empty()) {
-    std::fprintf(stderr, "Viewer: no scenes\n");
-    std::abort();
-  }
+  if (scenes_.empty()) abortWith("Viewer: no scenes");
 }
 
 void Viewer::apply(ViewerAction action) {

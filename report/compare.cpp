@@ -6,9 +6,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 
+#include "base/parallel_for.h"
+#include "base/refusal.h"
 #include "report/projections.h"
 
 namespace ltcfit {
@@ -55,7 +56,7 @@ double lobeDistance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 TableDifference compareTables(const Table& first, const Table& second) {
   if (first.isIsotropic() != second.isIsotropic())
-    throw std::invalid_argument("one table is isotropic, the other anisotropic");
+    throw Refusal("one table is isotropic, the other anisotropic");
   TableDifference out;
   out.sameNodes = sameNodes(first, second);
   out.sameStorage = out.sameNodes && first.info().stores == second.info().stores &&
@@ -82,24 +83,22 @@ TableDifference compareTables(const Table& first, const Table& second) {
   std::vector<double> sw1(nodes, kMissing);
   std::vector<double> norm(nodes, kMissing);
   std::vector<double> fresnel(nodes, kMissing);
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::size_t i = 0; i < nodes; ++i) {
+  parallelFor(nodes, {.chunk = 16}, [&](std::size_t i) {
     const std::vector<std::size_t> node = first.node(i);
     const TableEntry a = first.entry(node);
     const TableEntry b = out.sameNodes ? second.entry(node) : second.fetch(first.parameters(node));
     if (a.invertible && b.invertible) sw1[i] = lobeDistance(a.m, b.m);
     if (a.norm && b.norm) norm[i] = std::abs(*a.norm - *b.norm);
     if (a.fresnel && b.fresnel) fresnel[i] = std::abs(*a.fresnel - *b.fresnel);
-  }
+  });
   std::vector<double> between(nodes, kMissing);
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::size_t i = 0; i < nodes; ++i) {
+  parallelFor(nodes, {.chunk = 16}, [&](std::size_t i) {
     const std::optional<LobeParameters> p = cellCentre(first, first.node(i));
-    if (!p) continue;
+    if (!p) return;
     const TableEntry a = first.fetch(*p);
     const TableEntry b = second.fetch(*p);
     if (a.invertible && b.invertible) between[i] = lobeDistance(a.m, b.m);
-  }
+  });
   double worst = -1.0;
   for (std::size_t i = 0; i < nodes; ++i) {
     out.singular += std::isnan(sw1[i]) ? 1 : 0;

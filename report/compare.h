@@ -36,7 +36,7 @@ struct TableDifference {
 double lobeDistance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 
 /// Compares at the nodes of the first table and between them, lobes by lobeDistance(). Throws
-/// std::invalid_argument where one is isotropic and the other anisotropic. Independent of threads.
+/// Refusal where one is isotropic and the other anisotropic. Independent of threads.
 TableDifference compareTables(const Table& first, const Table& second);
 
 }  // namespace ltcfit

@@ -1,6 +1,5 @@
 #include "report/pareto.h"
 
-#include <omp.h>
 #include <time.h>
 
 #include <Eigen/LU>
@@ -9,7 +8,7 @@
 #include <limits>
 #include <mutex>
 
-#include "fit/parallel_for.h"
+#include "base/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "report/pareto_entries.h"
 
@@ -86,10 +85,9 @@ ParetoResult runPareto(const ParetoOptions& options, const ParetoProgress& progr
 
   // All settings of an entry and repeat one after the other, so that what slows the machine for a while slows
   // them alike. The longest come first: costly settings take part in the first entries and repeats.
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   std::mutex progressMutex;
   double done = 0.0;
-  parallelFor(options.entries * options.repeats, threads, [&](std::size_t i) {
+  parallelFor(options.entries * options.repeats, {.threads = options.threads}, [&](std::size_t i) {
     const std::size_t repeat = i / options.entries;
     const std::size_t entry = i % options.entries;
     MetricOptions unseen = options.metrics;
@@ -104,7 +102,6 @@ ParetoResult runPareto(const ParetoOptions& options, const ParetoProgress& progr
       done += nominalSeconds(result.settings[s]) + kSecondsAMeasurement;
       if (progress) progress(done, total);
     }
-    return [] {};
   });
   result.summaries = summarizePareto(runs);
   return result;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 
 #include "base/angles.h"
+#include "base/refusal.h"
 #include "ggx/random.h"
 #include "ltc/resample.h"
 
@@ -77,7 +77,7 @@ PointSet pointSetFromName(std::string_view name) {
   for (PointSet set : {PointSet::kNodes, PointSet::kOffGrid, PointSet::kExtreme}) {
     if (name == pointSetName(set)) return set;
   }
-  throw std::invalid_argument("unknown point set '" + std::string(name) + "' (nodes, off-grid or extreme)");
+  throw Refusal("unknown point set '" + std::string(name) + "' (nodes, off-grid or extreme)");
 }
 
 std::vector<Point> makePoints(const Table& table, PointSet set, std::size_t count, double minAlpha,

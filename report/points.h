@@ -15,7 +15,7 @@ enum class PointSet {
   kOffGrid,  ///< random in the table's domain, fetched as a shader does
   kExtreme,  ///< random, sharp and grazing
 };
-/// "nodes", "off-grid" or "extreme", and back (std::invalid_argument).
+/// "nodes", "off-grid" or "extreme", and back (Refusal).
 std::string_view pointSetName(PointSet set);
 PointSet pointSetFromName(std::string_view name);
 

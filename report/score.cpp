@@ -1,13 +1,11 @@
 #include "report/score.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 
+#include "base/diagnostics.h"
+#include "base/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "report/direct_fit.h"
 
@@ -78,8 +76,7 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   const Table& first = *tables.at(0);
   for (const Table* table : tables) {
     if (table->isIsotropic() != first.isIsotropic()) {
-      std::fprintf(stderr, "scoreTables: an isotropic and an anisotropic table have no points in common\n");
-      std::abort();
+      abortWith("scoreTables: an isotropic and an anisotropic table have no points in common");
     }
   }
   const std::vector<Point> points =
@@ -88,10 +85,8 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
   for (std::size_t t = 0; options.interpolation && t < tables.size(); ++t)
     directs[t] = std::make_unique<DirectFit>(*tables[t], options.threads);
   std::vector<std::vector<PointResult>> results(tables.size(), std::vector<PointResult>(points.size()));
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   std::size_t done = 0;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  parallelFor(points.size(), {.threads = options.threads}, [&](std::size_t i) {
     // Lights, directions and samples of its own for each point: their noise then averages out over the table.
     ScoreOptions own = options;
     own.metrics.seed = mixSeed(options.metrics.seed, 1000 + i);
@@ -111,11 +106,10 @@ std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const Sc
         results[t][i] = judge(table.fetch(points[i].parameters), table, target, direct);
       }
     }
-    if (progress) {
-#pragma omp critical(ltcfit_score_progress)
-      progress(++done, points.size());
-    }
-  }
+    return [&] {
+      if (progress) progress(++done, points.size());
+    };
+  });
 
   std::vector<Score> scores(tables.size());
   for (std::size_t t = 0; t < tables.size(); ++t) {

@@ -1,13 +1,12 @@
 #include "report/smoothness.h"
 
-#include <omp.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
+#include "base/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "ggx/random.h"
 #include "report/projections.h"
@@ -95,11 +94,9 @@ std::vector<AxisSmoothness> tableSmoothness(const Table& table, int threads) {
   std::vector<AxisSmoothness> out(axes.size());
   for (std::size_t a = 0; a < axes.size(); ++a)
     out[a] = {axes[a].name, std::vector<double>(nodes, std::nan("")), {}};
-  const int count = threads > 0 ? threads : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic, 16) num_threads(count)
-  for (std::size_t i = 0; i < nodes; ++i) truth[i] = trueLobe(table, i);
-#pragma omp parallel for schedule(dynamic, 16) num_threads(count)
-  for (std::size_t i = 0; i < nodes; ++i) {
+  const ParallelOptions parallel{.threads = threads, .chunk = 16};
+  parallelFor(nodes, parallel, [&](std::size_t i) { truth[i] = trueLobe(table, i); });
+  parallelFor(nodes, parallel, [&](std::size_t i) {
     const std::vector<std::size_t> node = table.node(i);
     const TableEntry here = table.entry(node);
     const Eigen::Matrix3Xd lobe = distances.lobe(here.m);
@@ -123,7 +120,7 @@ std::vector<AxisSmoothness> tableSmoothness(const Table& table, int threads) {
       const double width = std::max(truth[i].spread, truth[j].spread);
       out[a].steps[i] = std::max(0.0, travel - distances.between(truth[i], truth[j])) / width;
     }
-  }
+  });
   for (AxisSmoothness& axis : out) {
     std::vector<double> steps;
     std::copy_if(axis.steps.begin(), axis.steps.end(), std::back_inserter(steps),

@@ -1,7 +1,6 @@
 #include "report/stability.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,9 +9,9 @@
 #include <memory>
 #include <numbers>
 
+#include "base/parallel_for.h"
 #include "fit/l3_objective.h"
 #include "fit/moment_start.h"
-#include "fit/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "report/compare.h"
 #include "report/metrics.h"
@@ -296,12 +295,11 @@ std::vector<std::string_view> brokenLimits(const StabilityRow& row) {
 
 StabilityResult runStability(const StabilityOptions& options,
                              const std::function<void(std::size_t, std::size_t)>& progress) {
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   const std::size_t n = options.lobes.size();
-  const TablesAtLobes tables = fitTablesAt(options.lobes, threads);
+  const TablesAtLobes tables = fitTablesAt(options.lobes, options.threads);
   std::vector<std::vector<StabilityRow>> rows(n);
   std::size_t done = 0;
-  parallelFor(n, threads, [&](std::size_t i) {
+  parallelFor(n, {.threads = options.threads}, [&](std::size_t i) {
     const LobeParameters& p = options.lobes[i];
     const std::optional<Table>& table =
         kindOf(p) == TableKind::kIsotropic ? tables.isotropic : tables.anisotropic;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "report/default_stability_set.h"
 
 namespace ltcfit {
@@ -17,7 +17,7 @@ constexpr std::size_t kMostValues = 64;
 constexpr double kSmallestAlpha = 1e-5;
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw std::invalid_argument("stability set: " + message);
+  throw Refusal("stability set: " + message);
 }
 
 double numberIn(const nlohmann::json& value, const std::string& field, double low, double high) {

@@ -19,7 +19,7 @@ struct StabilitySet {
   double alphaFloor = 1e-5;  ///< alpha_y is no smaller; in [1e-5, 1]
 };
 
-/// Reads data/stability_set.json or a file like it. Throws std::invalid_argument naming the field: not JSON,
+/// Reads data/stability_set.json or a file like it. Throws Refusal naming the field: not JSON,
 /// another format, a list that is empty, of more than 64 numbers, or with one out of range.
 StabilitySet parseStabilitySet(std::string_view json);
 

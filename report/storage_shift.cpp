@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/half_matrix.h"
 #include "export/half_table.h"
 #include "ltc/ltc.h"
@@ -48,7 +48,7 @@ double halfShift(const Matrix3d& m, TableKind kind) {
     }
     const Matrix3d stored = normalized(m, MatrixNormalization::kThirdColumnUnit);
     return lobeShift(m, roundToHalf(halfScale({stored}) * stored, MatrixStorage::kM, free).matrix);
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     return std::numeric_limits<double>::infinity();
   }
 }

@@ -1,7 +1,6 @@
 #include "report/table_report.h"
 
-#include <omp.h>
-
+#include "base/parallel_for.h"
 #include "report/lobe_choice.h"
 
 namespace ltcfit {
@@ -31,14 +30,13 @@ std::vector<ReportLobe> drawLobes(const std::vector<ReportTable>& tables, const 
   const Table& first = tables[0].read;
   const std::vector<ChosenLobe> chosen = chooseLobes(first, nodes);
   std::vector<ReportLobe> out(chosen.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
+  parallelFor(chosen.size(), {.threads = threads}, [&](std::size_t i) {
     const std::vector<std::size_t> node = first.node(chosen[i].node);
     const LobeParameters p = first.parameters(node);
     std::vector<TableEntry> entries{first.entry(node)};
     for (std::size_t t = 1; t < tables.size(); ++t) entries.push_back(tables[t].read.fetch(p));
     out[i] = {chosen[i].why, chosen[i].node, p, drawLobe(first.info().brdf, p, entries)};
-  }
+  });
   return out;
 }
 
@@ -64,10 +62,9 @@ TableReport reportTable(const std::vector<ReportTable>& tables, const ReportOpti
                         })});
     before += set == PointSet::kNodes ? nodes : options.points;
   }
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   out.histograms = histogramsOf(out.sets);
-  for (const Table* table : read) out.smoothness.push_back(tableSmoothness(*table, threads));
-  out.lobes = drawLobes(tables, out.sets[0].scores[0], threads);
+  for (const Table* table : read) out.smoothness.push_back(tableSmoothness(*table, options.threads));
+  out.lobes = drawLobes(tables, out.sets[0].scores[0], options.threads);
   out.verdicts = tableVerdicts(tables, out.sets);
   return out;
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
+#include "base/refusal.h"
 #include "export/packing.h"
 
 namespace ltcfit {
@@ -88,7 +88,7 @@ Verdict halves(const Table& table) {
     v.value = report.largestShift;
     v.detail = table.isIsotropic() ? "the inverse over its middle element, as in the layout of 2017"
                                    : "M, times a power of two";
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     v.detail = error.what();
   }
   return v;

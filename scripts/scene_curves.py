@@ -65,11 +65,12 @@ def main():
                           f"{point['bytes']} | {100 * point['share']:.2g} % | {point['mean']:.2g} | "
                           f"{point['p99']:.2g} | {point['full_mean'] or float('nan'):.2g} |", flush=True)
     if arguments.output:
-        temporary = arguments.output + ".tmp"
-        with open(temporary, "w", encoding="utf-8") as file:
+        folder = os.path.dirname(arguments.output) or "."
+        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=folder, delete=False) as file:
             json.dump({"format": "ltc-scene-curves", "version": 1, "points": points}, file, indent=1)
             file.write("\n")
-        os.replace(temporary, arguments.output)
+        os.chmod(file.name, 0o644)
+        os.replace(file.name, arguments.output)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,10 @@
 #include "tailor/fetch_check.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fit/parallel_for.h"
+#include "base/parallel_for.h"
 #include "ggx/random.h"
 
 namespace ltcfit {
@@ -14,12 +12,12 @@ namespace ltcfit {
 FetchCheck::FetchCheck(const LobeDistribution& distribution, std::size_t count,
                        const InterpolationModelOptions& fit, std::uint64_t seed, const FitProgress& progress)
     : isotropic_(distribution.isotropic),
-      threads_(fit.threads > 0 ? fit.threads : omp_get_max_threads()),
+      threads_(fit.threads),
       seed_(seed),
       lookUps_(drawLookUps(distribution, count, fit.alphaFloor, seed)),
       direct_(count) {
   std::size_t done = 0;
-  parallelFor(count, threads_, [&](std::size_t i) {
+  parallelFor(count, {.threads = threads_}, [&](std::size_t i) {
     direct_[i] = fitLookUp(lookUps_[i].parameters, isotropic_, fit);
     return [&] {
       if (progress) progress(++done, count);
@@ -34,7 +32,7 @@ FetchError FetchCheck::measure(const Table& table) const {
   for (std::size_t i = 0; i < direct_.size(); ++i)
     if (direct_[i].allFinite()) usable.push_back(i);
   std::vector<double> errors(usable.size(), infinity);
-  parallelFor(usable.size(), threads_, [&](std::size_t k) {
+  parallelFor(usable.size(), {.threads = threads_}, [&](std::size_t k) {
     const std::size_t i = usable[k];
     const TableEntry entry = table.fetch(lookUps_[i].parameters);
     if (entry.invertible) {
@@ -43,7 +41,6 @@ FetchError FetchCheck::measure(const Table& table) const {
                                                        entry.fresnel.value_or(0.0), stores));
       if (std::isfinite(error)) errors[k] = error;
     }
-    return [] {};
   });
   FetchError out;
   out.lookUps = errors.size();

@@ -1,14 +1,12 @@
 #include "tailor/interpolation_model.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "base/angles.h"
-#include "fit/parallel_for.h"
+#include "base/parallel_for.h"
 #include "fit/table_fit.h"
 #include "fit/table_plan.h"
 #include "ggx/random.h"
@@ -66,8 +64,7 @@ InterpolationModel::InterpolationModel(const LobeDistribution& distribution,
   fits_ = all.size() * perLookUp;
   std::vector<StoredEntry> fitted(fits_);
   std::size_t done = 0;
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
-  parallelFor(fits_, threads, [&](std::size_t k) {
+  parallelFor(fits_, {.threads = options.threads}, [&](std::size_t k) {
     LobeParameters p = all[k / perLookUp].parameters;
     if (const std::size_t i = k % perLookUp; i > 0) {
       const std::size_t axis = (i - 1) / options.lineFits;
@@ -80,7 +77,7 @@ InterpolationModel::InterpolationModel(const LobeDistribution& distribution,
       if (progress) progress(++done, fits_);
     };
   });
-  threads_ = threads;
+  threads_ = options.threads;
   for (std::size_t l = 0; l < all.size(); ++l) {
     const auto begin = fitted.begin() + static_cast<std::ptrdiff_t>(l * perLookUp);
     if (!std::all_of(begin, begin + static_cast<std::ptrdiff_t>(perLookUp),

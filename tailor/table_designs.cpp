@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel_for.h"
+
 namespace ltcfit {
 namespace {
 
@@ -72,8 +74,8 @@ TableDesigns::TableDesigns(const InterpolationModel& model) : model_(model) {
       nodes[a] = more ? nodes[a] + 1 : 1;
     }
   }
-#pragma omp parallel for schedule(static) num_threads(model.threads())
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].error = error(all[i].nodes);
+  parallelFor(all.size(), {.threads = model.threads(), .chunk = 64},
+              [&](std::size_t i) { all[i].error = error(all[i].nodes); });
   std::sort(all.begin(), all.end(), [](const TableDesign& a, const TableDesign& b) {
     const std::size_t m = a.nodeCount();
     const std::size_t n = b.nodeCount();

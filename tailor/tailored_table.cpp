@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string_view>
 
+#include "base/refusal.h"
 #include "export/packing.h"
 #include "fit/table_fit.h"
 #include "fit/table_plan.h"
@@ -137,7 +137,7 @@ class Tailor {
     FetchError error;
     try {
       error = check_.measure(shippedTable(*table, out_.precision));
-    } catch (const std::invalid_argument&) {  // numbers that no half holds
+    } catch (const Refusal&) {  // numbers that no half holds
       error.mean = error.standardError = std::numeric_limits<double>::infinity();
     }
     const TailorStep step{design, bytesOf(design), out_.precision, error};

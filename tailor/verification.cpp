@@ -1,12 +1,10 @@
 #include "tailor/verification.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "fit/parallel_for.h"
+#include "base/parallel_for.h"
 #include "fit/target_lobe.h"
 #include "ggx/random.h"
 #include "render/picture_error.h"
@@ -26,7 +24,7 @@ void addTruth(const Table& tailored, const Table& full, const LobeDistribution& 
       drawLookUps(distribution, options.truthPoints, fit.alphaFloor, mixSeed(options.seed, 2));
   std::vector<std::array<LightErrors, 3>> errors(lookUps.size());
   std::vector<char> usable(lookUps.size(), 0);
-  parallelFor(lookUps.size(), fit.threads > 0 ? fit.threads : omp_get_max_threads(), [&](std::size_t i) {
+  parallelFor(lookUps.size(), {.threads = fit.threads}, [&](std::size_t i) {
     const LobeParameters& p = lookUps[i].parameters;
     const StoredEntry direct = fitLookUp(p, distribution.isotropic, fit);
     const TableEntry a = tailored.fetch(p);
@@ -47,7 +45,6 @@ void addTruth(const Table& tailored, const Table& full, const LobeDistribution& 
       }
       usable[i] = 1;
     }
-    return [] {};
   });
   double count = 0.0;
   for (char u : usable) count += u;

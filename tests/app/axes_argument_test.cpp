@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "export/atomic_file.h"
 #include "fit/table_plan.h"
 
 namespace ltcfit::app {
@@ -46,7 +47,7 @@ TEST(AxesArgument, KnotsOfAnglesAreDegrees) {
 std::string messageOf(const std::string& text) {
   try {
     parseAnisotropicAxes(text);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";

@@ -289,6 +289,15 @@ TEST_F(CheckpointTest, RefusesOtherRunsAndOtherFilesAndDoesNotTouchThem) {
   EXPECT_THROW(Checkpoint("no/such/folder/c", "a run", 10), std::runtime_error);
 }
 
+TEST_F(CheckpointTest, FollowsNoLink) {
+  const std::string target = path_ + ".target";
+  std::ofstream(target).close();
+  ASSERT_EQ(::symlink(target.c_str(), path_.c_str()), 0);
+  EXPECT_THROW(Checkpoint(path_, "a run", 9), std::invalid_argument);
+  EXPECT_EQ(std::ifstream(target).peek(), EOF) << "another's file was written to";
+  std::remove(target.c_str());
+}
+
 TEST_F(CheckpointTest, DoesNotBelieveDamagedLines) {
   { Checkpoint(path_, "a run", 10).add(1, result(1)); }
   const std::string whole = read();
