@@ -29,6 +29,9 @@ struct GltfFile {
 inline constexpr std::size_t kMaxGltfBytes = std::size_t{1} << 30;
 /// Largest JSON part: it is held several times while it is read.
 inline constexpr std::size_t kMaxGltfJson = std::size_t{1} << 28;
+/// Memory that its objects may take, by an estimate before any is kept: "{}," is three bytes of a file, and
+/// more than 1,000 of a material.
+inline constexpr std::size_t kMaxGltfJsonMemory = std::size_t{1} << 32;
 
 /// The bytes are those of a .glb, whatever follows.
 bool isGlb(std::string_view bytes);
