@@ -251,11 +251,17 @@ int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
         throw InputError(std::string(option) + " needs --scene: the plan says it (field request)");
   }
   checkWritable(a.output);
-  const ScenePlan plan = a.plan.empty() ? planOf(command, a.scene) : planFromJson(readFile(a.plan), a.plan);
-  if (plan.tables.empty()) {
-    complain(fmt::format("{} has no specular lobes to make tables for: none was written", plan.scene));
-    return kExitOk;
-  }
+  const ScenePlan plan =
+      a.plan.empty() ? planOf(command, a.scene) : planFromJson(readFile(a.plan, kMaxPlanBytes), a.plan);
+  if (plan.tables.empty())
+    throw InputError(
+        a.plan.empty()
+            ? fmt::format("{}: {} {} was not written; ltcfit scene lists its materials", a.scene.scene,
+                          plan.notes.back(), a.output)
+            : fmt::format(
+                  "{}: the plan has no tables, since its scene needs none: {} was not written; notes in the "
+                  "plan say why",
+                  a.plan, a.output));
   std::vector<Table> given;
   for (const std::string& path : a.full) given.push_back(readTable(path));
   const std::vector<std::string> outputs = outputsOf(a.output, plan);

@@ -14,8 +14,9 @@ namespace ltcfit {
 inline constexpr std::size_t kMaxGltfElements = std::size_t{1} << 28;
 
 /// Reads accessors, sparse ones and those without a buffer view (zeros) included, of every component type.
-/// All functions throw InputError with `where`, which names the user of the accessor, for an accessor that
-/// does not exist, has another type, or whose elements lie outside its buffer view.
+/// All functions throw InputError with `where`, which names the user of the accessor, and its number, for an
+/// accessor that does not exist, has another type, or whose elements overlap, lie outside its buffer view or
+/// off the multiples of their numbers' size.
 class GltfAccessors {
  public:
   /// `file` must outlive this.
@@ -23,6 +24,8 @@ class GltfAccessors {
 
   /// False if its data is compressed in a way that is not read.
   bool readable(int accessor, const std::string& where) const;
+  /// How many elements it says that it has, before any is looked at.
+  std::size_t count(int accessor, const std::string& where) const;
   /// The elements one after another, `components` numbers each; normalized integers as 0..1 or -1..1.
   std::vector<float> vectors(int accessor, std::size_t components, const std::string& where);
   std::vector<std::uint32_t> indices(int accessor, const std::string& where);
@@ -30,8 +33,8 @@ class GltfAccessors {
  private:
   const tinygltf::Accessor& get(int accessor, const std::string& where) const;
   template <typename T, typename Read>
-  std::vector<T> read(const tinygltf::Accessor& accessor, std::size_t components, const std::string& where,
-                      const Read& number);
+  std::vector<T> read(const tinygltf::Accessor& accessor, std::size_t components, bool spaced,
+                      const std::string& where, const Read& number);
 
   const GltfFile& file_;
   std::size_t elements_ = 0;

@@ -16,7 +16,6 @@
 namespace ltcfit {
 namespace {
 
-
 constexpr std::string_view kBufferName = "buffer-";
 constexpr std::string_view kEmptyBuffer = "data:application/octet-stream;base64,AA==";
 
@@ -140,9 +139,7 @@ void resolveBuffers(GltfJson& json, std::string_view binary, const std::filesyst
 // tinygltf insists on index data that a Draco primitive need not have, and drops one without attributes.
 void withoutDraco(GltfJson& json) {
   for (GltfJson& mesh : arrayOf(json, "meshes")) {
-    if (!mesh.is_object()) continue;
     for (GltfJson& primitive : arrayOf(mesh, "primitives")) {
-      if (!primitive.is_object()) throw InputError("a primitive that is not an object");
       if (!hasExtension(primitive, "KHR_draco_mesh_compression")) continue;
       primitive.erase("indices");
       primitive["attributes"] = GltfJson::object();
@@ -153,12 +150,10 @@ void withoutDraco(GltfJson& json) {
 std::vector<GltfImage> imagesOf(GltfJson& json) {
   std::vector<GltfImage> images;
   for (const GltfJson& image : arrayOf(json, "images")) {
-    if (!image.is_object()) throw InputError(fmt::format("image {} is not an object", images.size()));
     GltfImage out;
     out.uri = textOf(image, "uri");
     out.mimeType = textOf(image, "mimeType");
-    if (const auto view = image.find("bufferView"); view != image.end() && view->is_number_integer())
-      out.bufferView = view->get<int>();
+    if (const auto view = image.find("bufferView"); view != image.end()) out.bufferView = view->get<int>();
     images.push_back(std::move(out));
   }
   return images;
@@ -213,6 +208,7 @@ GltfFile parseGltf(std::string_view bytes, const std::filesystem::path& folder) 
     throw InputError("neither glTF (no 'asset') nor a scene description (no \"format\": \"ltc-scene\")");
   const std::string version = textOf(all["asset"], "version");
   if (!version.starts_with("2.")) throw InputError(fmt::format("glTF version '{}'; 2.0 is read", version));
+  checkGltfTypes(all);
   // the rest is not looked at, and tinygltf need not either
   GltfJson json{{"asset", {{"version", "2.0"}}}};
   for (const char* key : {"scene", "scenes", "nodes", "meshes", "materials", "textures", "samplers",
@@ -224,7 +220,6 @@ GltfFile parseGltf(std::string_view bytes, const std::filesystem::path& folder) 
   Buffers buffers;
   resolveBuffers(json, chunks.binary, folder, buffers);
   withoutDraco(json);
-  checkMaterialTypes(arrayOf(json, "materials"));
   all = nullptr;
 
   tinygltf::TinyGLTF loader;

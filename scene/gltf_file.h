@@ -29,6 +29,9 @@ struct GltfFile {
 inline constexpr std::size_t kMaxGltfBytes = std::size_t{1} << 30;
 /// Largest JSON part: it is held several times while it is read.
 inline constexpr std::size_t kMaxGltfJson = std::size_t{1} << 28;
+/// Memory that its objects may take, by an estimate before any is kept: "{}," is three bytes of a file, and
+/// more than 1,000 of a material.
+inline constexpr std::size_t kMaxGltfJsonMemory = std::size_t{1} << 32;
 
 /// The bytes are those of a .glb, whatever follows.
 bool isGlb(std::string_view bytes);
@@ -36,8 +39,8 @@ bool isGlb(std::string_view bytes);
 /// Reads `bytes`, a .gltf or .glb that lies in `folder`, and the buffers it names. URIs are file names
 /// relative to the folder, percent-encoded; ".." is followed, as viewers do, an absolute path or another
 /// scheme than data: is not, nor is anything read that is no regular file. Buffer views lie within their
-/// buffers in what comes back, and fields of materials have their types (gltf_types.h); of everything else,
-/// indices included, nothing is promised but what tinygltf does. Compressed geometry stays unread: primitives
+/// buffers in what comes back, and fields have the types and values that glTF has (gltf_types.h); nothing is
+/// promised of indices. Compressed geometry stays unread: primitives
 /// with KHR_draco_mesh_compression come without attributes, buffer views with EXT_meshopt_compression or
 /// KHR_meshopt_compression point at nothing. InputError for anything that is not so.
 GltfFile parseGltf(std::string_view bytes, const std::filesystem::path& folder);

@@ -10,8 +10,8 @@ namespace ltcfit {
 using GltfJson = nlohmann::json;
 
 /// Parses the JSON of a glTF file, with zeros at its end or not. InputError for what is not JSON, more than
-/// kMaxGltfJson bytes, nesting of more than 64 and integers beyond 32 bits outside of "extras": tinygltf
-/// recurses, and cuts integers off.
+/// kMaxGltfJson bytes, more than kMaxGltfJsonMemory bytes of objects, nesting of more than 64 and integers
+/// beyond 32 bits outside of "extras": tinygltf recurses, and cuts integers off.
 GltfJson parseGltfJson(std::string_view text);
 
 }  // namespace ltcfit

@@ -233,6 +233,28 @@ std::vector<TextureSlot> slotsOfCoat(const GltfMaterial& m) {
   return slots;
 }
 
+std::span<const std::size_t> channelsOf(TextureSlot slot) {
+  static constexpr std::array<std::size_t, 4> kAll{0, 1, 2, 3};
+  constexpr std::span<const std::size_t> kRgba(kAll);
+  switch (slot) {
+    case kMetallicRoughness:
+      return kRgba.subspan(1, 2);
+    case kBaseColor:
+    case kSpecularColor:
+      return kRgba.first(3);
+    case kAnisotropy:
+      return kRgba.subspan(2, 1);
+    case kSpecular:
+      return kRgba.subspan(3, 1);
+    case kClearcoat:
+      return kRgba.first(1);
+    case kClearcoatRoughness:
+      return kRgba.subspan(1, 1);
+    default:  // kSpecularGlossiness has a colour and, in alpha, a number
+      return kRgba;
+  }
+}
+
 LobeUse baseLobe(const GltfMaterial& m, const SlotTexels& texels) {
   LobeUse lobe;
   if (m.specularGlossiness) {

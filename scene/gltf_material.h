@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ enum TextureSlot : std::size_t {
 
 /// How texels are read of each, 8 bits a channel; where there is no texture all channels are 255.
 using SlotTexels = std::array<std::array<std::uint8_t, 4>, kTextureSlots>;
+
+/// The channels of a slot that the functions below read, 0 to 3 for red to alpha.
+std::span<const std::size_t> channelsOf(TextureSlot slot);
 
 /// Factors as the file has them, clamped to what glTF allows.
 struct GltfMaterial {

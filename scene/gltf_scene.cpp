@@ -101,7 +101,7 @@ class Reader {
                                           lobes.add(lobe);
                                         });
     out.lobes = lobes.lobes(share);
-    use_.materials.push_back(std::move(out));
+    addMaterial(use_, std::move(out));
   }
 
   void addCoat(const GltfMaterial& material, const std::vector<const GltfSurface*>& surfaces, double share) {
@@ -128,7 +128,7 @@ class Reader {
     }
     out.area = share * std::min(lobes.weight() / all, 1.0);
     out.lobes = lobes.lobes(out.area);
-    use_.materials.push_back(std::move(out));
+    addMaterial(use_, std::move(out));
   }
 
   void addLight(const GltfMaterial& material, const std::vector<const GltfSurface*>& surfaces) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -28,6 +29,10 @@ Triangles trianglesOf(const std::vector<std::uint32_t>& vertices, int mode) {
           {mode == TINYGLTF_MODE_TRIANGLE_FAN ? vertices[0] : vertices[i - 2], vertices[i - 1], vertices[i]});
   }
   return triangles;
+}
+
+bool hasTriangles(const tinygltf::Primitive& primitive) {
+  return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
 bool isCompressed(const tinygltf::Primitive& primitive, const GltfAccessors& accessors,
@@ -70,6 +75,41 @@ void addVariants(const tinygltf::Primitive& primitive, std::vector<int>& materia
   }
 }
 
+std::string nameOf(std::size_t mesh, std::size_t primitive) {
+  return fmt::format("mesh {}, primitive {}", mesh, primitive);
+}
+
+// Counts triangles by what accessors say that they have, before any is read: many primitives may share one.
+void refuseTooMany(const tinygltf::Model& model, const GltfAccessors& accessors,
+                   const std::vector<std::vector<Matrix3d>>& placements) {
+  constexpr std::size_t kBytes = sizeof(Triangles::value_type) + sizeof(double);
+  std::size_t placed = 0;
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+    if (placements[m].empty()) continue;
+    for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
+      const std::string name = nameOf(m, p);
+      if (!hasTriangles(primitive) || isCompressed(primitive, accessors, name)) continue;
+      const auto position = primitive.attributes.find("POSITION");
+      if (position == primitive.attributes.end()) continue;
+      const std::size_t vertices =
+          accessors.count(primitive.indices >= 0 ? primitive.indices : position->second, name);
+      const std::size_t triangles =
+          primitive.mode == TINYGLTF_MODE_TRIANGLES ? vertices / 3 : std::max<std::size_t>(vertices, 2) - 2;
+      if (triangles > (kMaxPlacedTriangles - placed) / placements[m].size())
+        throw InputError(fmt::format("{}: more than {} triangles in all", name, kMaxPlacedTriangles));
+      placed += triangles * placements[m].size();
+      kept += triangles;
+      if (kept * kBytes > kMaxTriangleBytes)
+        throw InputError(
+            fmt::format("{}: {} triangles so far would take {} bytes of memory; up to {} are "
+                        "allowed: read parts of the scene one by one",
+                        name, kept, kept * kBytes, kMaxTriangleBytes));
+    }
+  }
+}
+
 // Notes that a file needs but once.
 struct Seen {
   bool lines = false;
@@ -100,17 +140,17 @@ std::vector<GltfSurface> surfacesOf(const GltfFile& file, GltfAccessors& accesso
   const std::vector<std::vector<Matrix3d>> placements = placementsOfMeshes(file);
   std::vector<GltfSurface> surfaces;
   Seen seen;
-  std::size_t work = 0;
+  refuseTooMany(model, accessors, placements);
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     if (placements[m].empty()) continue;
     for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
-      if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+      if (!hasTriangles(primitive)) {
         seen.lines = true;
         continue;
       }
       GltfSurface surface;
-      surface.name = fmt::format("mesh {}, primitive {}", m, p);
+      surface.name = nameOf(m, p);
       surface.primitive = &primitive;
       surface.materials = {primitive.material};
       addVariants(primitive, surface.materials);
@@ -137,10 +177,6 @@ std::vector<GltfSurface> surfacesOf(const GltfFile& file, GltfAccessors& accesso
           if (vertex >= count)
             throw InputError(fmt::format("{} names vertex {} of {}", surface.name, vertex, count));
         surface.triangles = trianglesOf(vertices, primitive.mode);
-        if (surface.triangles.size() > (kMaxPlacedTriangles - work) / placements[m].size())
-          throw InputError(
-              fmt::format("{}: more than {} triangles in all", surface.name, kMaxPlacedTriangles));
-        work += surface.triangles.size() * placements[m].size();
         addAreas(surface, positions, placements[m]);
       }
       surfaces.push_back(std::move(surface));

@@ -24,12 +24,15 @@ struct GltfSurface {
 
 /// Triangles times placements that one file may have.
 inline constexpr std::size_t kMaxPlacedTriangles = std::size_t{1} << 28;
+/// Memory that the triangles of one file may take: more than those of a file without shared accessors do.
+inline constexpr std::size_t kMaxTriangleBytes = std::size_t{1} << 31;
 
 /// What the default scene shows, or where none is the default all scenes, each node once; where there is no
 /// scene at all, every node that has no parent. In order of meshes and primitives; without points and lines.
 /// Skins and morph targets count at rest. `notes` gets a sentence on what is not as a viewer would show it.
 /// InputError for indices out of range, a node with two parents or that is its own ancestor, transforms of a
-/// wrong size, coordinates that are not finite, and more than kMaxPlacedTriangles.
+/// wrong size, coordinates that are not finite, and, before any is read, more than kMaxPlacedTriangles or
+/// kMaxTriangleBytes.
 std::vector<GltfSurface> surfacesOf(const GltfFile& file, GltfAccessors& accessors,
                                     std::vector<std::string>& notes);
 

@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "export/atomic_file.h"
+#include "scene/gltf_uri.h"
+#include "scene/texel_values.h"
 
 namespace ltcfit {
 namespace {
@@ -26,11 +28,24 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kOtherImages{{{"KHR
                                                                            {"EXT_texture_avif", "AVIF"},
                                                                            {"MSFT_texture_dds", "DDS"}}};
 
+// Media types of images, of glTF and of the extensions above, and the kinds that are not read.
+constexpr std::array<std::pair<std::string_view, const char*>, 6> kMediaTypes{{{"image/png", ""},
+                                                                               {"image/jpeg", ""},
+                                                                               {"image/ktx2", "KTX2"},
+                                                                               {"image/webp", "WebP"},
+                                                                               {"image/avif", "AVIF"},
+                                                                               {"image/vnd-ms.dds", "DDS"}}};
+
 // The kind by its media type, where there are no bytes to tell: of those that are not read.
-std::string unreadableType(const std::string& mimeType) {
-  if (mimeType == "image/ktx2") return "KTX2";
-  if (mimeType == "image/webp") return "WebP";
-  return mimeType == "image/avif" ? "AVIF" : std::string();
+std::string unreadableType(const std::string& mimeType, const std::string& name) {
+  if (mimeType.empty()) return {};
+  std::string all;
+  for (const auto& [type, kind] : kMediaTypes) {
+    if (mimeType == type) return kind;
+    all += fmt::format("{}{}", all.empty() ? "" : ", ", type);
+  }
+  throw InputError(
+      fmt::format("{}: mimeType is '{}'; glTF and its extensions have {}", name, shortened(mimeType), all));
 }
 
 }  // namespace
@@ -67,7 +82,7 @@ LoadedTexture GltfTextures::load(int index, const std::string& material) {
     throw InputError(fmt::format("texture {} names image {} of {}", index, source, file_.images.size()));
   out.name = imageName(file_, source);
   const GltfImage& image = file_.images[source];
-  if (const std::string kind = unreadableType(image.mimeType); !kind.empty()) return assume(kind);
+  if (const std::string kind = unreadableType(image.mimeType, out.name); !kind.empty()) return assume(kind);
   const bool inView = image.uri.empty() && image.bufferView >= 0 &&
                       static_cast<std::size_t>(image.bufferView) < model.bufferViews.size();
   if (inView && isMeshoptCompressed(model.bufferViews[static_cast<std::size_t>(image.bufferView)]))
@@ -144,91 +159,113 @@ std::string GltfTextures::cover(Group& group, const std::vector<const GltfSurfac
   coverageWork_ += coverage.work();
   if (!any) return "no triangle shows it";
   group.areas = coverage.areas();
-  for (std::size_t i = 0; i < group.areas.size(); ++i)
-    if (group.areas[i] > 0.0f) group.covered.push_back(static_cast<std::uint32_t>(i));
+  group.shown = static_cast<std::size_t>(
+      std::count_if(group.areas.begin(), group.areas.end(), [](float area) { return area > 0.0f; }));
   return {};
+}
+
+// A sentence for each texture of the group; `uncovered` is why its texels are not covered by triangles.
+void GltfTextures::explain(const Group& group, const std::string& uncovered,
+                           std::vector<std::string>& reasons) {
+  for (std::size_t i = 0; i < group.slots.size(); ++i) {
+    const LoadedTexture& texture = group.textures[i];
+    const char* const what = kSlotNames[group.slots[i]];
+    const TexelImage& image = *texture.image;
+    if (!texture.assumed.empty()) {
+      reasons.push_back(
+          fmt::format("The {} texture, {}, could not be read ({}): every value was assumed, uniformly.", what,
+                      texture.name, texture.assumed));
+    } else if (!uncovered.empty()) {
+      reasons.push_back(fmt::format("All {} x {} texels of {} ({}) were counted, because {}.", image.width,
+                                    image.height, texture.name, what, uncovered));
+    } else if (i == group.reference) {
+      reasons.push_back(fmt::format("The triangles show {} of the {} x {} texels of {} ({}).", group.shown,
+                                    image.width, image.height, texture.name, what));
+    } else {
+      reasons.push_back(fmt::format("{} ({} x {}, {}) was looked up there.", texture.name, image.width,
+                                    image.height, what));
+    }
+  }
+}
+
+// Calls `visit` with what the group's slots show together, the others 255, and with its share of the area.
+void GltfTextures::forEachShown(const Group& group,
+                                const std::function<void(const SlotTexels&, double)>& visit) {
+  const TexelImage& reference = *group.largest().image;
+  const double total = std::accumulate(group.areas.begin(), group.areas.end(), 0.0);
+  SlotTexels texels;
+  for (auto& texel : texels) texel.fill(255);
+  SlotTexels last = texels;
+  double run = 0.0;
+  for (std::size_t texel = 0; texel < reference.texels.size(); ++texel) {
+    if (!group.areas.empty() && !(group.areas[texel] > 0.0f)) continue;
+    const std::size_t x = texel % reference.width;
+    const std::size_t y = texel / reference.width;
+    for (std::size_t i = 0; i < group.slots.size(); ++i) {
+      const TexelImage& image = *group.textures[i].image;
+      // the texel in which the centre of the reference's lies
+      texels[group.slots[i]] = image.at((2 * x + 1) * image.width / (2 * reference.width),
+                                        (2 * y + 1) * image.height / (2 * reference.height));
+    }
+    // neighbours are often equal, and looking them up costs more than comparing them
+    if (run > 0.0 && texels != last) {
+      visit(last, run);
+      run = 0.0;
+    }
+    last = texels;
+    run += group.areas.empty() ? 1.0 / static_cast<double>(reference.texels.size())
+                               : static_cast<double>(group.areas[texel]) / total;
+  }
+  visit(last, run);
+}
+
+// Throws where `texels` more are too many.
+void GltfTextures::spend(std::size_t texels) {
+  countedTexels_ += texels;
+  if (countedTexels_ > kMaxCountedTexels)
+    throw InputError(
+        fmt::format("its materials have more than {} texels, each counted by itself", kMaxCountedTexels));
 }
 
 std::size_t GltfTextures::forEachTexel(const GltfMaterial& material, const std::vector<TextureSlot>& slots,
                                        const std::vector<const GltfSurface*>& surfaces,
                                        std::vector<std::string>& reasons,
                                        const std::function<void(const SlotTexels&, double)>& count) {
-  SlotTexels texels;
-  for (auto& texel : texels) texel.fill(255);
   if (slots.empty()) {
+    SlotTexels texels;
+    for (auto& texel : texels) texel.fill(255);
     count(texels, 1.0);
     return 0;
   }
   std::vector<Group> groups = groupsOf(material, slots);
-  std::size_t most = 0;
+  std::vector<TexelValues> values;
   std::size_t ofImages = 0;
   for (Group& group : groups) {
-    const std::string uncovered = cover(group, surfaces);
-    most = std::max(most, group.texels());
+    explain(group, cover(group, surfaces), reasons);
+    spend(group.texels());
     if (group.largest().assumed.empty()) ofImages = std::max(ofImages, group.texels());
-    for (std::size_t i = 0; i < group.slots.size(); ++i) {
-      const LoadedTexture& texture = group.textures[i];
-      const char* const what = kSlotNames[group.slots[i]];
-      const TexelImage& image = *texture.image;
-      if (!texture.assumed.empty()) {
-        reasons.push_back(
-            fmt::format("The {} texture, {}, could not be read ({}): every value was assumed, uniformly.",
-                        what, texture.name, texture.assumed));
-      } else if (!uncovered.empty()) {
-        reasons.push_back(fmt::format("All {} x {} texels of {} ({}) were counted, because {}.", image.width,
-                                      image.height, texture.name, what, uncovered));
-      } else if (i == group.reference) {
-        reasons.push_back(fmt::format("The triangles show {} of the {} x {} texels of {} ({}).",
-                                      group.covered.size(), image.width, image.height, texture.name, what));
-      } else {
-        reasons.push_back(fmt::format("{} ({} x {}, {}) was looked up there.", texture.name, image.width,
-                                      image.height, what));
-      }
+    if (groups.size() == 1) {
+      forEachShown(group, count);
+      return ofImages;
     }
+    TexelValues& ofGroup = values.emplace_back(group.slots);
+    forEachShown(group, [&](const SlotTexels& texels, double) { ofGroup.widen(texels); });
+    forEachShown(group, [&](const SlotTexels& texels, double area) { ofGroup.add(texels, area); });
+    // of all groups at once they could take gigabytes
+    group.areas = {};
   }
-  if (groups.size() > 1)
-    reasons.push_back("Textures of unlike texture coordinates were taken as independent of each other.");
-  countedTexels_ += most;
-  if (countedTexels_ > kMaxCountedTexels)
-    throw InputError(
-        fmt::format("its materials have more than {} texels, each counted by itself", kMaxCountedTexels));
-
-  std::vector<double> totals;
-  totals.reserve(groups.size());
-  for (const Group& group : groups)
-    totals.push_back(std::accumulate(group.areas.begin(), group.areas.end(), 0.0));
-  // a prime near the golden section of 2^32: pairs of texels fill the plane evenly
-  constexpr std::size_t kStep = 2654435761;
-  SlotTexels last = texels;
-  double run = 0.0;
-  for (std::size_t k = 0; k < most; ++k) {
-    double weight = 1.0;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const Group& group = groups[g];
-      const std::size_t n = group.texels();
-      const std::size_t choice = (g == 0 ? k : k * kStep) % n;
-      const std::size_t texel = group.areas.empty() ? choice : group.covered[choice];
-      weight *= group.areas.empty() ? 1.0 / static_cast<double>(n)
-                                    : static_cast<double>(group.areas[texel]) / totals[g];
-      const TexelImage& reference = *group.largest().image;
-      const std::size_t x = texel % reference.width;
-      const std::size_t y = texel / reference.width;
-      for (std::size_t i = 0; i < group.slots.size(); ++i) {
-        const TexelImage& image = *group.textures[i].image;
-        // the texel in which the centre of the reference's lies
-        texels[group.slots[i]] = image.at((2 * x + 1) * image.width / (2 * reference.width),
-                                          (2 * y + 1) * image.height / (2 * reference.height));
-      }
-    }
-    // neighbours are often equal, and looking them up costs more than comparing them
-    if (k > 0 && texels != last) {
-      count(last, run);
-      run = 0.0;
-    }
-    last = texels;
-    run += weight;
-  }
-  count(last, run);
+  const std::size_t combinations = limitCombinations(values);
+  spend(combinations);
+  std::string merged;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (values[g].level() > 0)
+      merged += fmt::format(" Values of {} were merged to steps of {}/255 for that.",
+                            groups[g].largest().name, 1 << values[g].level());
+  reasons.push_back(
+      fmt::format("Textures of unlike texture coordinates were taken as independent of each other: all {} "
+                  "combinations of their values count.{}",
+                  combinations, merged));
+  forEachCombination(values, count);
   return ofImages;
 }
 

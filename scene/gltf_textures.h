@@ -40,10 +40,11 @@ class GltfTextures {
   /// them, up to a factor that is the same in one call. `surfaces` are the material's. Areas are equal, and
   /// all texels counted, where texture coordinates cannot be read; triangles count alike where their areas
   /// are all 0. Slots with the same mapping of texture coordinates are looked up together, at the texels of
-  /// the largest of their images; those of unlike mappings as if they were independent. Returns how many
-  /// texels were counted, 0 without slots and where no image could be read, and appends a sentence for each
-  /// texture to `reasons`. InputError for images as decodeTexels and imageBytes, for texture indices out of
-  /// range, and past kMaxCountedTexels.
+  /// the largest of their images; those of unlike mappings are independent: every combination of values
+  /// counts, by the product of their areas (texel_values.h, with what it merges where they are too many).
+  /// Returns how many texels of one image were counted, 0 without slots and where no image could be read, and
+  /// appends a sentence for each texture to `reasons`. InputError for images as decodeTexels and imageBytes,
+  /// for texture indices out of range, and past kMaxCountedTexels.
   std::size_t forEachTexel(const GltfMaterial& material, const std::vector<TextureSlot>& slots,
                            const std::vector<const GltfSurface*>& surfaces, std::vector<std::string>& reasons,
                            const std::function<void(const SlotTexels&, double area)>& count);
@@ -56,15 +57,18 @@ class GltfTextures {
     std::vector<LoadedTexture> textures;
     std::size_t reference = 0;  // the largest image
     std::vector<float> areas;   // of its texels; empty: all alike
-    std::vector<std::uint32_t> covered;
+    std::size_t shown = 0;      // of them, that have an area
 
     const LoadedTexture& largest() const { return textures[reference]; }
-    std::size_t texels() const { return areas.empty() ? largest().image->texels.size() : covered.size(); }
+    std::size_t texels() const { return areas.empty() ? largest().image->texels.size() : shown; }
   };
 
   LoadedTexture load(int texture, const std::string& material);
   std::vector<Group> groupsOf(const GltfMaterial& material, const std::vector<TextureSlot>& slots);
   std::string cover(Group& group, const std::vector<const GltfSurface*>& surfaces);
+  static void explain(const Group& group, const std::string& uncovered, std::vector<std::string>& reasons);
+  static void forEachShown(const Group& group, const std::function<void(const SlotTexels&, double)>& visit);
+  void spend(std::size_t texels);
 
   const GltfFile& file_;
   GltfAccessors& accessors_;

@@ -287,8 +287,7 @@ SceneUse sceneFromJson(std::string_view bytes, const std::filesystem::path& fold
     const std::vector<double> shares = sharesOf(materials, use.notes);
     Distributions distributions(folder);
     for (std::size_t i = 0; i < materials.size(); ++i)
-      use.materials.push_back(
-          materialOf(materials[i], fmt::format("materials[{}]", i), distributions, shares[i]));
+      addMaterial(use, materialOf(materials[i], fmt::format("materials[{}]", i), distributions, shares[i]));
     use.lights = lightsOf(file);
     use.views = viewsOf(file);
   });

@@ -56,6 +56,15 @@ struct SceneUse {
   /// What a user should know: unused materials, extensions that LTC tables do not cover, textures that could
   /// not be read and what was assumed instead.
   std::vector<std::string> notes;
+  std::size_t lobeCount = 0;  ///< of all materials, as addMaterial counts
 };
+
+/// Memory that the lobes of one scene may take: those of some two thousand materials with as many lobes as
+/// LobeHistogram keeps.
+inline constexpr std::size_t kMaxLobeBytes = std::size_t{340} << 20;
+
+/// Appends `material`. InputError, naming it and the number of bytes, where the lobes of all would take more
+/// than `maxBytes`: a small file may have a hundred thousand materials.
+void addMaterial(SceneUse& use, MaterialUse material, std::size_t maxBytes = kMaxLobeBytes);
 
 }  // namespace ltcfit

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -194,6 +195,16 @@ std::string planToJson(const ScenePlan& plan) {
 }
 
 ScenePlan planFromJson(std::string_view text, const std::string& name) {
+  // a value of the parser's tree with its key, and twice that while an array grows
+  constexpr std::size_t kBytesPerValue = 128;
+  const auto values = static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '[' || c == '{'; }));
+  const std::size_t memory = values * kBytesPerValue + text.size();
+  if (text.size() > kMaxPlanBytes || memory > kMaxPlanMemory)
+    throw InputError(
+        fmt::format("{}: {} bytes of JSON, which would take some {} bytes of memory; up to {} and {} "
+                    "are read: plan parts of the scene one by one",
+                    name, text.size(), memory, kMaxPlanBytes, kMaxPlanMemory));
   ScenePlan plan;
   readJson(text, name, [&plan](const Json& json) { plan = readPlan(json); });
   return plan;

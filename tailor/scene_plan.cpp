@@ -271,6 +271,17 @@ bool PlanRequest::isValid(std::string* error) const {
          check("alpha-floor", alphaFloor, 1e-5, 0.1) && check("seed", static_cast<double>(seed), 0.0, 9e15);
 }
 
+std::string whyNoTable(const SceneUse& use) {
+  if (use.materials.empty()) return "No table is needed: nothing that the scene shows has a specular lobe.";
+  constexpr std::size_t kMostNames = 3;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(use.materials.size(), kMostNames); ++i)
+    names += fmt::format("{}'{}'", i == 0 ? "" : ", ", use.materials[i].name);
+  if (use.materials.size() > kMostNames)
+    names += fmt::format(" and {} more", use.materials.size() - kMostNames);
+  return fmt::format("No table is needed: no lobe reflects anything, F0 and F90 are 0 ({}).", names);
+}
+
 LobeDistribution distributionOf(const SceneUse& use, bool isotropic) {
   LobeDistribution d;
   d.isotropic = isotropic;
@@ -329,7 +340,7 @@ ScenePlan planScene(const SceneUse& use, const PlanRequest& request, int threads
     const std::size_t used = shared ? plan.tables.back().maxBytes : plan.tables.back().cost.bytes;
     if (left > 0) left = left > used ? left - used : 1;
   }
-  if (plan.tables.empty()) plan.notes.emplace_back("no material has a specular lobe: no table is needed");
+  if (plan.tables.empty()) plan.notes.push_back(whyNoTable(use));
   plan.shading = shadingOf(use.lights);
   return plan;
 }

@@ -68,7 +68,8 @@ struct ScenePlan {
   std::string scene;
   PlanRequest request;
   std::vector<MaterialSummary> materials;
-  std::vector<PlannedTable> tables;  ///< none, one or an isotropic and an anisotropic one
+  /// None (then the last note says why), one, or an isotropic and an anisotropic one.
+  std::vector<PlannedTable> tables;
   LightUse lights;
   std::vector<std::string> shading;  ///< what the shader has to do: integrals, clipping, sides, textures
   std::vector<std::string> notes;
@@ -77,6 +78,9 @@ struct ScenePlan {
 /// The lobes of a scene that a table of one kind is for: alphaX = alphaY or not, as told; alike ones merged,
 /// those without specular reflection left out.
 LobeDistribution distributionOf(const SceneUse& use, bool isotropic);
+
+/// Why a scene has no lobes that a table is for, a sentence: of one that neither distributionOf has any.
+std::string whyNoTable(const SceneUse& use);
 
 /// The model that a planned table is designed by; the same for the same request.
 InterpolationModelOptions modelOptions(const PlanRequest& request, bool isotropic, int threads);

@@ -196,6 +196,32 @@ TEST(ScenePlan, BytesAreSharedOut) {
   EXPECT_EQ(back.tables[1].maxError, 0.0);
 }
 
+TEST(ScenePlan, WithoutLobesItSaysWhy) {
+  PlanRequest request;
+  SceneUse use;
+  const ScenePlan nothing = planScene(use, request, 1);
+  EXPECT_TRUE(nothing.tables.empty());
+  EXPECT_EQ(nothing.notes.back(), "No table is needed: nothing that the scene shows has a specular lobe.");
+  use.materials.assign(5, material("chalk", {{0.25, 0.25, 0.0, 0.0, 0.2}}));
+  const ScenePlan dull = planScene(use, request, 1);
+  EXPECT_TRUE(dull.tables.empty());
+  EXPECT_EQ(
+      dull.notes.back(),
+      "No table is needed: no lobe reflects anything, F0 and F90 are 0 ('chalk', 'chalk', 'chalk' and 2 "
+      "more).");
+  EXPECT_NE(planText(dull).find("no lobe reflects anything"), std::string::npos);
+  EXPECT_TRUE(planFromJson(planToJson(dull), "p.json").tables.empty());
+}
+
+TEST(ScenePlan, PlansThatWouldTakeGigabytesAreRefused) {
+  std::string text = "{\"tables\": [";
+  for (int i = 0; i < (9 << 20); ++i) text += "[],";
+  EXPECT_EQ(
+      messageOf(text + "0]}"),
+      "p.json: 28311567 bytes of JSON, which would take some 2444230927 bytes of memory; up to 268435456 and "
+      "2147483648 are read: plan parts of the scene one by one");
+}
+
 TEST(ScenePlan, RequestsAreChecked) {
   std::string error;
   PlanRequest r;
