@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "export/atomic_file.h"
+#include "export/image.h"
 #include "export/little_endian.h"
 #include "export/picture.h"
 
@@ -235,6 +236,16 @@ class HeaderCheck {
     if (width * pixel * std::max(height, c.lines) > length * c.ratio ||
         (height + c.lines - 1) / c.lines * 8 > length)
       refuseExr(name_, "more pixels than its length can hold");
+    checkAllocation(width, kind_ == ExrKind::kPicture ? c.lines : std::max(height, c.lines), pixel);
+  }
+
+  // What a file as long as its claim could make us allocate: an image with all channels; of a picture, whose
+  // other channels are passed over, a block of lines.
+  void checkAllocation(std::int64_t width, std::int64_t lines, std::int64_t pixel) const {
+    constexpr auto kMostBytes = static_cast<std::int64_t>(kMaxImageNumbers * sizeof(float));
+    if (width * lines * pixel > kMostBytes)
+      refuseExr(name_, fmt::format("{} x {} pixels of {} bytes are more than the {} bytes that it may take",
+                                   width, lines, pixel, kMostBytes));
   }
 
   // A tile is allocated whole, and the table of tiles has 8 bytes for each.
@@ -256,6 +267,8 @@ class HeaderCheck {
     if (width * height * pixel > length * ratio || across * down * pixel > length * ratio ||
         count * 8 > length)
       refuseExr(name_, "more pixels than its length can hold");
+    checkAllocation(width, height, pixel);
+    checkAllocation(across, down, pixel);
   }
 
   std::string_view bytes_;

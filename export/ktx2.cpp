@@ -24,7 +24,7 @@ constexpr std::size_t kHeaderSize = 80;  // identifier, header and index
 constexpr std::size_t kLevelIndexSize = 24;
 constexpr std::uint32_t kZstd = 2;
 // A frame of zstd holds at most this many bytes for one of its own, tables of zeros apart: a table never
-// comes near it. It bounds what a damaged length can make us allocate.
+// comes near it. Next to kMaxImageNumbers it bounds what a damaged length can make us allocate.
 constexpr std::size_t kMaxRatio = 256;
 // That of zstd itself, a block of 128 KiB of one byte in 4 bytes: pictures may be black.
 constexpr std::size_t kMaxPictureRatio = 32768;
@@ -86,13 +86,24 @@ std::string deflate(const std::string& level, int effort) {
   return out;
 }
 
+[[noreturn]] void refuseZstd(const std::string& name) {
+  throw InputError(name + ": damaged zstd data, or of another length than the header claims");
+}
+
 std::string inflate(std::string_view level, std::size_t size, std::size_t maxRatio, const std::string& name) {
   if (size / maxRatio > level.size())
     throw InputError(fmt::format("{}: claims {} bytes in {} compressed ones", name, size, level.size()));
+  // what the frame says itself, before anything is allocated for the header's claim
+  const unsigned long long told = ZSTD_getFrameContentSize(level.data(), level.size());
+  const bool isOne = ZSTD_findFrameCompressedSize(level.data(), level.size()) == level.size();
+  if (told == ZSTD_CONTENTSIZE_ERROR) refuseZstd(name);
+  if (told != ZSTD_CONTENTSIZE_UNKNOWN && (told > size || (told < size && isOne))) {
+    throw InputError(
+        fmt::format("{}: a zstd frame of {} bytes where the KTX2 header claims {}", name, told, size));
+  }
   std::string out(size, '\0');
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), level.data(), level.size());
-  if (ZSTD_isError(got) != 0 || got != size)
-    throw InputError(name + ": damaged zstd data, or of another length than the header claims");
+  if (ZSTD_isError(got) != 0 || got != size) refuseZstd(name);
   return out;
 }
 
@@ -220,6 +231,11 @@ KtxHeader parseKtxHeader(std::string_view bytes, const std::string& name) {
     if (side == 0 || side > kMaxKtxSide)
       throw InputError(fmt::format("{}: KTX2 header: a size of {}; need 1 to {}", name, side, kMaxKtxSide));
   }
+  // 2^58 at most: no overflow
+  if (image.texels() * image.components > kMaxImageNumbers)
+    throw InputError(fmt::format(
+        "{}: KTX2 header: {} x {} x {} texels, {} layers of {} numbers; need {} numbers at most", name,
+        image.width, image.height, image.depth, image.layers, image.components, kMaxImageNumbers));
   header.keyValues = parseKeyValues(part(bytes, field(56), field(60), "key/value data", name), name);
   return header;
 }
@@ -230,7 +246,7 @@ std::vector<float> parseLevel(std::string_view bytes, std::size_t l, const Image
   const std::size_t at = kHeaderSize + kLevelIndexSize * l;
   const std::string_view level =
       part(bytes, readAt<std::uint64_t>(bytes, at), readAt<std::uint64_t>(bytes, at + 8), "level", name);
-  const std::size_t size = image.texels() * image.components * image.bytesPerValue();  // 2^60 at most
+  const std::size_t size = image.texels() * image.components * image.bytesPerValue();
   if (readAt<std::uint64_t>(bytes, at + 16) != size || (!isPacked && level.size() != size)) {
     throw InputError(fmt::format("{}: {} x {} x {} texels, {} layers do not fit the length of the level",
                                  name, image.width, image.height, image.depth, image.layers));

@@ -202,6 +202,24 @@ TEST(ExrPicture, ClaimsOfSizeAreChecked) {
   }
 }
 
+// Of a length that bears them out by the ratio of the compression alone.
+TEST(ExrPicture, ClaimsOfLongFilesAreBounded) {
+  const std::string key("Window\0box2i\0", 13);
+  std::string bytes = bytesOf({{{"R"}, {"G"}, {"B"}}, imf::ZIP_COMPRESSION});
+  for (std::size_t at = bytes.find(key); at != std::string::npos; at = bytes.find(key, at + 1)) {
+    bytes.replace(at + key.size() + 12, 8, std::string("\xFF\x3F\0\0\xFF\x3F\0\0", 8));  // 16384 a side
+  }
+  bytes.resize(std::size_t{4} << 20, '\0');
+  try {
+    parseExr(bytes, "E");
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("16384 x 16384 pixels of"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("more than the 1073741824 bytes"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ExrPicture, DamagedIsRefusedOrRead) {
   for (const imf::Compression compression :
        {imf::PXR24_COMPRESSION, imf::B44A_COMPRESSION, imf::DWAA_COMPRESSION, imf::DWAB_COMPRESSION}) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <stdexcept>
 
@@ -110,6 +113,38 @@ TEST(Ktx2, RefusesEverythingElse) {
   }
   EXPECT_THROW(imageToKtx2(file(2, 2, 4, Precision::kHalf), Ktx2Compression::kNone), std::invalid_argument);
   EXPECT_THROW(imageToKtx2(file(1, 1, 3, Precision::kHalf), Ktx2Compression::kNone), std::invalid_argument);
+}
+
+// Files whose length bears out what they claim, by the ratio of zstd alone: 64 MiB for 16 GiB.
+TEST(Ktx2, ClaimsAreBoundedByWhatATableCanBe) {
+  std::string bytes = imageToKtx2(file(1, 1, 4, Precision::kFloat), Ktx2Compression::kZstd);
+  const auto claim = [&](std::uint32_t width, std::uint32_t height, std::uint32_t layers) {
+    const std::array<std::uint32_t, 4> sides{width, height, 0, layers};
+    std::memcpy(bytes.data() + 20, sides.data(), sizeof sides);
+    const std::uint64_t size = std::uint64_t{width} * height * std::max(1u, layers) * 16;
+    std::memcpy(bytes.data() + 96, &size, 8);
+  };
+  const auto expectRefused = [&](const std::string& what) {
+    try {
+      parseKtx2(bytes, "a");
+      ADD_FAILURE() << "read, " << what;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  claim(16384, 16384, 4);
+  expectRefused("16384 x 16384 x 1 texels, 4 layers of 4 numbers; need 268435456 numbers at most");
+  // long enough for its claim, but the frame says 1 MiB: nothing is allocated to find out
+  Image noise;
+  noise.width = noise.height = 256;
+  std::uint32_t state = 1;
+  for (std::size_t i = 0; i < 4 * noise.texels(); ++i) {
+    state = 1664525 * state + 1013904223;
+    noise.values.push_back(std::bit_cast<float>(0x3F800000u | state >> 9));
+  }
+  bytes = imageToKtx2({noise, {}}, Ktx2Compression::kZstd);
+  claim(2048, 4096, 0);
+  expectRefused("a zstd frame of 1048576 bytes where the KTX2 header claims 134217728");
 }
 
 }  // namespace
