@@ -30,7 +30,8 @@ constexpr std::uint64_t kMaxSidecar = std::uint64_t{1} << 26;
 constexpr std::uint64_t kMaxTable = std::uint64_t{1} << 30;
 
 // Where the second texture of the 2017 table lies: "ltc2017-1.npy" has "ltc2017-2.npy" beside it.
-std::string secondTexturePath(const std::string& path) {
+std::string secondTexturePath(const std::string& path, const ReadOptions& options) {
+  if (!options.second.empty()) return options.second;
   std::filesystem::path p(path);
   std::string stem = p.stem().string();
   const std::size_t at = stem.rfind('1');
@@ -120,24 +121,31 @@ std::vector<Image> layersOf(const Image& image) {
   return layers;
 }
 
+// What is read, and the remarks to make about it.
+struct Reading {
+  const ReadOptions& options;
+  std::vector<std::string> notes;
+};
+
 // The layout of 2017, whose second texture is the second layer or another file.
-PackedTable packedWithoutMetadata(const Image& image, const std::string& path) {
+PackedTable packedWithoutMetadata(const Image& image, const std::string& path, Reading& reading) {
   if (image.layers == 2) {
     const std::vector<Image> layers = layersOf(image);
     return packedFrom2017(layers[0], &layers[1], path);
   }
-  const std::string second = secondTexturePath(path);
+  const std::string second = secondTexturePath(path, reading.options);
   if (second.empty()) return packedFrom2017(image, nullptr, path);
+  reading.notes.push_back(fmt::format("{}: norm and Fresnel are taken from {}", path, second));
   const Image secondImage = readImage(readFile(second, kMaxTable), second);
   return packedFrom2017(image, &secondImage, path);
 }
 
 TableFile fileOf(PackedTable packed, const std::string& format, const std::string& path) {
   Table table = tableFromPacked(packed, path);
-  return {std::move(table), format, std::move(packed)};
+  return {std::move(table), format, std::move(packed), {}};
 }
 
-TableFile readTexture(const std::string& bytes, const std::string& path) {
+TableFile readTexture(const std::string& bytes, const std::string& path, Reading& reading) {
   if (isKtx2(bytes)) {
     const Ktx2File file = parseKtx2(bytes, path);
     for (const auto& [key, value] : file.keyValues) {
@@ -148,7 +156,7 @@ TableFile readTexture(const std::string& bytes, const std::string& path) {
       packed->images = readFiles(*packed, bytes, path);
       return fileOf(std::move(*packed), "KTX2", path);
     }
-    return fileOf(packedWithoutMetadata(file.image, path), "KTX2", path);
+    return fileOf(packedWithoutMetadata(file.image, path, reading), "KTX2", path);
   }
   std::optional<PackedTable> packed = readSidecar(path, bytes);
   if (isNpy(bytes)) {
@@ -158,11 +166,11 @@ TableFile readTexture(const std::string& bytes, const std::string& path) {
     }
     const FloatArray array = parseNpy(bytes, path);
     if (packed) return fileOf(packedFromNumbers(std::move(*packed), array.values, path), ".npy", path);
-    if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt};
-    return fileOf(packedWithoutMetadata(imageOfArray(array, path), path), ".npy", path);
+    if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt, {}};
+    return fileOf(packedWithoutMetadata(imageOfArray(array, path), path, reading), ".npy", path);
   }
   const Image image = parseDds(bytes, path);
-  if (!packed) return fileOf(packedWithoutMetadata(image, path), "DDS", path);
+  if (!packed) return fileOf(packedWithoutMetadata(image, path, reading), "DDS", path);
   if (packed->files.size() == 1) return fileOf(packedFromStack(std::move(*packed), image, path), "DDS", path);
   packed->images = readFiles(*packed, bytes, path);
   return fileOf(std::move(*packed), "DDS", path);
@@ -188,9 +196,41 @@ bool looksLikeText(std::string_view bytes) {
   return bytes.find('\0') == std::string_view::npos;
 }
 
+TableFile readAny(const std::string& path, Reading& reading) {
+  const std::string bytes = readFile(path, kMaxTable);
+  if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path, reading);
+  if (isExr(bytes)) return fileOf(packedFromExr(bytes, path), "EXR", path);
+  // a byte order mark, as editors of one vendor leave it, is not part of the text
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+  if (start == std::string::npos) throw InputError(path + ": is empty");
+  if (bytes[start] == '{') {
+    if (isTextureMetadata(bytes))
+      throw InputError(path + ": describes a texture file; give that one (the name without .json)");
+    if (isChebyshevJson(bytes))
+      return {tableOfChebyshev(chebyshevFromJson(bytes, path)), "Chebyshev form", std::nullopt, {}};
+    return {tableFromJson(bytes, path), "JSON", std::nullopt, {}};
+  }
+  if (looksLikeText(bytes)) {
+    if (std::optional<Table> table = tableFromSource(bytes, path))
+      return {std::move(*table), "source code", std::nullopt, {}};
+  }
+  // a few numbers may have no zero byte
+  if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
+    const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
+    return fileOf(packedFromNumbers(std::move(*packed), numbers, path), "binary", path);
+  }
+  if (!looksLikeText(bytes)) {
+    if (std::optional<Table> table = tableFromEngineBinary(bytes, path))
+      return {std::move(*table), "binary", std::nullopt, {}};
+  }
+  throw InputError(path +
+                   ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "
+                   "module with LTC_MAT_1, nor PlayCanvas' or Babylon.js' binary");
+}
+
 }  // namespace
 
-std::vector<std::string> filesOfTable(const std::string& path) {
+std::vector<std::string> filesOfTable(const std::string& path, const ReadOptions& options) {
   std::vector<std::string> files{path};
   const std::string beside = sidecarPath(path);
   std::error_code error;
@@ -203,44 +243,19 @@ std::vector<std::string> filesOfTable(const std::string& path) {
       // not a description: still not to be overwritten by accident
     }
   }
-  if (const std::string second = secondTexturePath(path); !second.empty()) files.push_back(second);
+  if (const std::string second = secondTexturePath(path, options); !second.empty()) files.push_back(second);
   return files;
 }
 
-Table readTable(const std::string& path) {
-  return readTableFile(path).table;
+Table readTable(const std::string& path, const ReadOptions& options) {
+  return readTableFile(path, options).table;
 }
 
-TableFile readTableFile(const std::string& path) {
-  const std::string bytes = readFile(path, kMaxTable);
-  if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path);
-  if (isExr(bytes)) return fileOf(packedFromExr(bytes, path), "EXR", path);
-  // a byte order mark, as editors of one vendor leave it, is not part of the text
-  const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
-  if (start == std::string::npos) throw InputError(path + ": is empty");
-  if (bytes[start] == '{') {
-    if (isTextureMetadata(bytes))
-      throw InputError(path + ": describes a texture file; give that one (the name without .json)");
-    if (isChebyshevJson(bytes))
-      return {tableOfChebyshev(chebyshevFromJson(bytes, path)), "Chebyshev form", std::nullopt};
-    return {tableFromJson(bytes, path), "JSON", std::nullopt};
-  }
-  if (looksLikeText(bytes)) {
-    if (std::optional<Table> table = tableFromSource(bytes, path))
-      return {std::move(*table), "source code", std::nullopt};
-  }
-  // a few numbers may have no zero byte
-  if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
-    const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
-    return fileOf(packedFromNumbers(std::move(*packed), numbers, path), "binary", path);
-  }
-  if (!looksLikeText(bytes)) {
-    if (std::optional<Table> table = tableFromEngineBinary(bytes, path))
-      return {std::move(*table), "binary", std::nullopt};
-  }
-  throw InputError(path +
-                   ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "
-                   "module with LTC_MAT_1, nor PlayCanvas' or Babylon.js' binary");
+TableFile readTableFile(const std::string& path, const ReadOptions& options) {
+  Reading reading{options, {}};
+  TableFile file = readAny(path, reading);
+  file.notes = std::move(reading.notes);
+  return file;
 }
 
 }  // namespace ltcfit

@@ -10,6 +10,12 @@
 
 namespace ltcfit {
 
+/// What a file does not tell, as the user tells it; empty: as the file's content and name suggest.
+struct ReadOptions {
+  std::string second;  ///< path of the second texture (norm, Fresnel) of a table in two files
+  std::string layout;  ///< name of the layout of a table without a description
+};
+
 /// Reads a table by its content, whatever its name says:
 ///   our JSON;
 ///   our Chebyshev form (.cheb.json), as the table of tableOfChebyshev;
@@ -23,18 +29,19 @@ namespace ltcfit {
 ///   like (arrays of 4 and 2 numbers a texel), and the anisotropic one of 2022 (five dimensions, 9 numbers
 ///   last); the published 2022 table as .npy.
 /// Throws InputError: not there, not readable, not one of these, or damaged.
-Table readTable(const std::string& path);
+Table readTable(const std::string& path, const ReadOptions& options = {});
 
 /// The same with what the file holds, for who hands its textures on.
 struct TableFile {
   Table table;
   std::string format;  ///< "KTX2", "DDS", "EXR", ".npy", "JSON", "Chebyshev form", "binary", "source code"
   std::optional<PackedTable> textures;  ///< as they lie in the file; nothing where it holds a table or code
+  std::vector<std::string> notes;       ///< what was taken without being told, for the user: a sentence each
 };
-TableFile readTableFile(const std::string& path);
+TableFile readTableFile(const std::string& path, const ReadOptions& options = {});
 
 /// The files that reading this one may take: itself, its description, the second texture. What must not be
 /// written over while it is read.
-std::vector<std::string> filesOfTable(const std::string& path);
+std::vector<std::string> filesOfTable(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace ltcfit
