@@ -27,7 +27,8 @@ TableFile readInput(const std::string& path, const ReadOptions& options) {
 }
 
 void printNotes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "ltcfit: note: {}\n", note);
+  // fputs: where stderr is closed or full, nothing is thrown
+  for (const std::string& note : notes) std::fputs(fmt::format("ltcfit: note: {}\n", note).c_str(), stderr);
 }
 
 }  // namespace ltcfit::app
