@@ -38,7 +38,7 @@ NumberType parseType(std::string_view header, const std::string& name) {
   constexpr std::string_view kKey = "'descr': '";
   const std::size_t key = header.find(kKey);
   const std::string_view type = key == std::string_view::npos ? "" : header.substr(key + kKey.size(), 4);
-  for (const std::size_t size : {2, 4, 8}) {
+  for (const std::size_t size : {std::size_t{2}, std::size_t{4}, std::size_t{8}}) {
     if (type == fmt::format("<f{}'", size)) return {size, false};
     if (type == fmt::format(">f{}'", size)) return {size, true};
   }
