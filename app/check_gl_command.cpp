@@ -14,6 +14,7 @@
 #include "app/progress.h"
 #include "app/shell_quoted.h"
 #include "base/angles.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "render/shading_check.h"
@@ -27,6 +28,7 @@ namespace {
 
 struct CheckGlArguments {
   std::string table;
+  ReadOptions input;
   std::string against;
   std::string output;
   std::string light;
@@ -81,7 +83,7 @@ ShadingCheckOptions toOptions(const CheckGlArguments& a) {
 
 // Every option that a figure follows from.
 std::string commandOf(const CheckGlArguments& a) {
-  std::string out = fmt::format("ltcfit check-gl {}", shellFileName(a.table));
+  std::string out = fmt::format("ltcfit check-gl {}{}", shellFileName(a.table), tableInputText(a.input));
   if (!a.against.empty()) out += fmt::format(" --against {}", shellFileName(a.against));
   if (!a.light.empty()) out += fmt::format(" --light {}", shellQuoted(a.light));
   if (a.alphaX > 0.0) out += fmt::format(" --alpha-x {}", a.alphaX);
@@ -209,7 +211,7 @@ std::vector<std::string> outputNames(const ShadingCheckOptions& options) {
 
 // The folder is there and everything in it can be written, without loss of what is read.
 void checkOutput(const CheckGlArguments& a, const ShadingCheckOptions& options) {
-  std::vector<std::string> inputs = filesOfTable(a.table);
+  std::vector<std::string> inputs = filesOfTable(a.table, a.input);
   if (!a.against.empty()) {
     const std::vector<std::string> more = filesOfTable(a.against);
     inputs.insert(inputs.end(), more.begin(), more.end());
@@ -239,13 +241,13 @@ std::vector<ShaderVariantCost> costsFor([[maybe_unused]] const ShaderTable& tabl
 int checkGlCommand(const CheckGlArguments& a) {
   checkArguments(a);
   const ShadingCheckOptions options = toOptions(a);
-  const ShaderTable table = loadShaderTable(a.table);
+  const ShaderTable table = makeShaderTable(readInput(a.table, a.input), a.table);
   if (table.isIsotropic() && options.custom && options.custom->alpha.x() != options.custom->alpha.y())
     throw InputError(fmt::format("--alpha-x {} --alpha-y {}: {} is an isotropic table",
                                  options.custom->alpha.x(), options.custom->alpha.y(), a.table));
   std::optional<ShaderTable> against;
   if (!a.against.empty()) {
-    against = loadShaderTable(a.against, &table.table);
+    against = makeShaderTable(readInput(a.against), a.against, &table.table);
     if (against->isIsotropic() != table.isIsotropic())
       throw InputError(
           fmt::format("--against {}: of {} and {} only one is anisotropic", a.against, a.table, a.against));
@@ -295,6 +297,7 @@ void addCheckGlCommand(CLI::App& app, CommandStatus& status) {
       ->add_option("table", a->table, "The table: any file that ltcfit reads; textures are used as they are")
       ->required()
       ->type_name("FILE");
+  addTableInput(*command, a->input);
   command
       ->add_option(
           "--against", a->against,

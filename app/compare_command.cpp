@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "base/angles.h"
 #include "base/diagnostics.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/compare.h"
@@ -91,8 +92,8 @@ void printText(const CompareArguments& a, const Table& first, const Table& secon
 
 int compare(const CompareArguments& a) {
   if (a.tolerance && !std::isfinite(*a.tolerance)) throw InputError("--tolerance must be a number in 0..2");
-  const Table first = readTable(a.first);
-  const Table second = readTable(a.second);
+  const Table first = readInput(a.first).table;
+  const Table second = readInput(a.second).table;
   const TableDifference difference = compareTables(first, second);
   if (a.json) {
     printJson(a, difference);

@@ -14,6 +14,7 @@
 #include "app/notes.h"
 #include "base/diagnostics.h"
 #include "base/refusal.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/chebyshev_file.h"
 #include "export/formats.h"
@@ -28,6 +29,7 @@ constexpr int kWorstNodes = 10;
 
 struct ExportArguments {
   std::string input;
+  ReadOptions read;
   std::string output;
   std::string format;
   std::string profile;
@@ -84,7 +86,7 @@ void placeFiles(const ExportArguments& a, Written& w) {
         w.folder.empty() ? file.name : (std::filesystem::path(w.folder) / file.name).string();
     if (!w.paths.empty() && isStream(w.paths[0])) break;  // descriptions cannot lie beside a stream
     checkWritable(path);
-    for (const std::string& input : filesOfTable(a.input)) {
+    for (const std::string& input : filesOfTable(a.input, a.read)) {
       if (isSameFile(path, input))
         throw InputError(fmt::format("{}: --output would overwrite this {}", input,
                                      input == a.input ? "table" : "part of the table"));
@@ -224,7 +226,7 @@ int runExport(const ExportArguments& a) {
     if (a.resample) throw InputError("--resample needs --profile");
     checkWritable(a.output);
   }
-  const Table table = readTable(a.input);
+  const Table table = readInput(a.input, a.read).table;
   try {
     return a.profile.empty() ? exportFormat(a, table) : exportProfiles(a, table);
   } catch (const Refusal& error) {
@@ -242,6 +244,7 @@ void addExportCommand(CLI::App& app, CommandStatus& status) {
       ->add_option("table", a->input,
                    "Table to read: whatever ltcfit writes, or a table that an engine ships")
       ->type_name("FILE");
+  addTableInput(*command, a->read);
   command->add_option("-o,--output", a->output, "File to write; a folder for profiles of several files")
       ->type_name("PATH");
   command

@@ -14,6 +14,7 @@
 #include "app/shell_quoted.h"
 #include "base/diagnostics.h"
 #include "base/refusal.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/read_table.h"
@@ -263,7 +264,7 @@ int fitPlanCommand(const CLI::App& command, const PlanFitArguments& a) {
                   "plan say why",
                   a.plan, a.output));
   std::vector<Table> given;
-  for (const std::string& path : a.full) given.push_back(readTable(path));
+  for (const std::string& path : a.full) given.push_back(readInput(path).table);
   const std::vector<std::string> outputs = outputsOf(a.output, plan);
   for (const std::string& output : outputs) {
     for (const std::string& input : {a.plan, a.scene.scene})

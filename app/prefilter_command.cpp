@@ -12,8 +12,8 @@
 #include "app/notes.h"
 #include "base/refusal.h"
 #include "export/atomic_file.h"
-#include "export/picture.h"
 #include "render/light_texture_file.h"
+#include "render/picture_file.h"
 #include "render/prefilter.h"
 
 namespace ltcfit::app {
@@ -114,9 +114,9 @@ void addPrefilterCommand(CLI::App& app, CommandStatus& status) {
       "prefilter", "Make a picture into the texture of a rectangular light (ltc_textured.glsl reads it)");
   auto a = std::make_shared<PrefilterArguments>();
   command
-      ->add_option(
-          "picture", a->input,
-          "PNG (sRGB, alpha multiplied in) or EXR (R, G, B or Y, linear, negative as 0); up to 8192 x 8192")
+      ->add_option("picture", a->input,
+                   "PNG (alpha multiplied in) or JPEG, both sRGB; Radiance (.hdr) or EXR (R, G, B or Y; "
+                   "negative as 0),\nboth linear; up to 8192 x 8192")
       ->type_name("FILE")
       ->required();
   command

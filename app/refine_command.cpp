@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/refinement_run.h"
 #include "app/refinement_summary.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 struct RefineArguments {
   std::string table;
+  ReadOptions input;
   std::string output;
   std::string storedAs;  // empty: usualStorage
   int points = RefinementOptions{}.points;
@@ -42,7 +44,7 @@ bool isAsFitted(const TableFile& file) {
 // A table may be replaced by its refined self; its other files, and what is no table of ours, may not.
 void checkOutput(const RefineArguments& a, const std::string& format) {
   checkWritable(a.output);
-  for (const std::string& input : filesOfTable(a.table)) {
+  for (const std::string& input : filesOfTable(a.table, a.input)) {
     if (isSameFile(a.output + ".part", input))
       throw InputError(input + ": --output would take this for the checkpoint of an interrupted run");
     if (isSameFile(a.output, input) && (input != a.table || format != "JSON"))
@@ -54,7 +56,7 @@ void checkOutput(const RefineArguments& a, const std::string& format) {
 
 int refineCommand(const RefineArguments& a) {
   checkWritable(a.output);
-  const TableFile file = readTableFile(a.table);
+  const TableFile file = readInput(a.table, a.input);
   const TableInfo& info = file.table.info();
   const bool isotropic = file.table.isIsotropic();
   checkOutput(a, file.format);
@@ -107,6 +109,7 @@ void addRefineCommand(CLI::App& app, CommandStatus& status) {
                    "Table to refine: whatever ltcfit writes, or a table that an engine ships")
       ->required()
       ->type_name("FILE");
+  addTableInput(*command, a->input);
   command->add_option("-o,--output", a->output, "Table file to write (JSON); may be the one that is read")
       ->required()
       ->type_name("FILE.json");

@@ -16,6 +16,7 @@
 #include "app/progress.h"
 #include "app/shell_quoted.h"
 #include "base/refusal.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/measurement_files.h"
@@ -31,6 +32,7 @@ constexpr std::size_t kMostNodes = 65536;
 
 struct ReportArguments {
   std::vector<std::string> tables;
+  ReadOptions input;
   std::vector<std::string> against;
   std::vector<std::string> pareto;
   std::vector<std::string> shading;
@@ -56,12 +58,12 @@ void checkOutputs(const ReportArguments& a) {
   std::vector<std::string> inputs = a.pareto;
   inputs.insert(inputs.end(), a.shading.begin(), a.shading.end());
   if (!a.stability.empty()) inputs.push_back(a.stability);
-  for (const std::vector<std::string>* paths : {&a.tables, &a.against}) {
-    for (const std::string& path : *paths) {
-      const std::vector<std::string> files = filesOfTable(path);
-      inputs.insert(inputs.end(), files.begin(), files.end());
-    }
-  }
+  const auto add = [&](const std::string& path, const ReadOptions& read) {
+    const std::vector<std::string> files = filesOfTable(path, read);
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  };
+  for (const std::string& path : a.tables) add(path, a.input);
+  for (const std::string& path : a.against) add(path, {});
   for (const std::string& output : {a.output, json}) {
     if (isStream(output)) throw InputError(output + ": not a file; two are written, side by side");
     checkWritable(output);
@@ -90,8 +92,8 @@ Table asRead(const ReportArguments& a, const std::string& path, const Table& fil
   }
 }
 
-ReportTable readReportTable(const ReportArguments& a, const std::string& path) {
-  Table file = readTable(path);
+ReportTable readReportTable(const ReportArguments& a, const std::string& path, const ReadOptions& input) {
+  Table file = readInput(path, input).table;
   if (file.nodeCount() > kMostNodes)
     throw InputError(
         fmt::format("{}: {} nodes; a report shows {} at most", path, file.nodeCount(), kMostNodes));
@@ -115,13 +117,13 @@ void makeNamesDifferent(std::vector<ReportTable>& tables) {
 std::vector<std::vector<ReportTable>> readGroups(const ReportArguments& a) {
   std::vector<std::vector<ReportTable>> groups;
   for (const std::string& path : a.tables) {
-    groups.push_back({readReportTable(a, path)});
+    groups.push_back({readReportTable(a, path, a.input)});
     if (groups.size() == 2 && groups[0][0].file.isIsotropic() == groups[1][0].file.isIsotropic())
       throw InputError(fmt::format("{}: a second {} table; --against holds one against another", path,
                                    groups[0][0].file.isIsotropic() ? "isotropic" : "anisotropic"));
   }
   for (const std::string& path : a.against) {
-    ReportTable reference = readReportTable(a, path);
+    ReportTable reference = readReportTable(a, path, {});
     const bool isotropic = reference.file.isIsotropic();
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<ReportTable>& g) {
       return g[0].file.isIsotropic() == isotropic;
@@ -164,6 +166,7 @@ Json readShading(const ReportArguments& a) {
 std::string commandOf(const ReportArguments& a) {
   std::string out = "ltcfit report";
   for (const std::string& path : a.tables) out += " " + shellFileName(path);
+  out += tableInputText(a.input);
   for (const std::string& path : a.against) out += " --against " + shellFileName(path);
   for (const std::string& path : a.pareto) out += " --pareto " + shellFileName(path);
   for (const std::string& path : a.shading) out += " --shading " + shellFileName(path);
@@ -204,6 +207,8 @@ int report(const ReportArguments& a) {
         "this build has no charting library for the page; with npm and a network, `cmake build && cmake "
         "--build "
         "build` fetches it, and `cmake -DLTCFIT_ECHARTS=FILE build` takes an echarts.min.js that is there");
+  if (a.tables.size() > 1 && !a.input.second.empty())
+    throw InputError("--second belongs to one table: give one, and the other in a run of its own");
   checkOutputs(a);
   std::vector<std::vector<ReportTable>> groups = readGroups(a);
   ReportSettings settings;
@@ -255,6 +260,7 @@ void addReportCommand(CLI::App& app, CommandStatus& status) {
       ->required()
       ->expected(1, 2)
       ->type_name("FILE");
+  addTableInput(*command, a->input);
   command
       ->add_option("--against", a->against,
                    "A table to hold the one of its kind against; may be given more than once")

@@ -10,6 +10,7 @@
 #include "app/metric_arguments.h"
 #include "app/progress.h"
 #include "base/refusal.h"
+#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/score.h"
@@ -19,6 +20,7 @@ namespace {
 
 struct ScoreArguments {
   std::string table;
+  ReadOptions input;
   std::vector<std::string> against;
   std::string points = "nodes";
   std::string storedAs = "file";
@@ -35,8 +37,8 @@ struct ScoreArguments {
 };
 
 // The table as a shader would hold it: between nodes M and its inverse do not interpolate alike.
-Table readForScore(const ScoreArguments& a, const std::string& path) {
-  Table table = readTable(path);
+Table readForScore(const ScoreArguments& a, const std::string& path, const ReadOptions& input) {
+  Table table = readInput(path, input).table;
   if (a.storedAs == "file") return table;
   try {
     const bool inverse = a.storedAs == "Minv";
@@ -182,15 +184,15 @@ int scoreCommand(const ScoreArguments& a) {
   if (!std::isfinite(a.minAlpha)) throw InputError("--min-alpha must be a number in 0..1");
   if (!a.reportPath.empty()) {
     checkWritable(a.reportPath);
-    std::vector<std::string> inputs = a.against;
-    inputs.push_back(a.table);
+    std::vector<std::string> inputs = filesOfTable(a.table, a.input);
+    inputs.insert(inputs.end(), a.against.begin(), a.against.end());
     for (const std::string& input : inputs)
       if (isSameFile(a.reportPath, input)) throw InputError(input + ": --report would overwrite this table");
   }
-  const Table table = readForScore(a, a.table);
+  const Table table = readForScore(a, a.table, a.input);
   std::vector<Table> others;
   for (const std::string& path : a.against) {
-    others.push_back(readForScore(a, path));
+    others.push_back(readForScore(a, path, {}));
     if (others.back().isIsotropic() != table.isIsotropic()) {
       throw InputError(path +
                        ": one table is isotropic, the other anisotropic: they have no points in common");
@@ -272,6 +274,7 @@ void addScoreCommand(CLI::App& app, CommandStatus& status) {
                    "Table to score: ltcfit's JSON, or a published table (.npy, DDS; the first texture)")
       ->required()
       ->type_name("FILE");
+  addTableInput(*command, a->input);
   command
       ->add_option("--against", a->against,
                    "Another table, scored at the same points; may be given more than once: then side by side")

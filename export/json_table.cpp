@@ -39,7 +39,8 @@ Table readTable(const Json& json) {
   std::vector<float> data(numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (std::abs(numbers[i]) > static_cast<double>(std::numeric_limits<float>::max())) {
-      throw InputError(fmt::format("data[{}] = {} does not fit a float32", i, numbers[i]));
+      throw InputError(
+          fmt::format("data[{}] = {} ({}) does not fit a float32", i, numbers[i], numberName(info, i)));
     }
     data[i] = static_cast<float>(numbers[i]);
   }
@@ -80,6 +81,10 @@ Table tableFromJson(std::string_view text, const std::string& name) {
   std::optional<Table> table;
   readJson(text, name, [&](const Json& json) { table.emplace(readTable(json)); });
   return std::move(*table);
+}
+
+void checkJson(std::string_view text, const std::string& name) {
+  readJson(text, name, [](const Json&) {});
 }
 
 }  // namespace ltcfit

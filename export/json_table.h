@@ -16,4 +16,7 @@ std::string tableToJson(const Table& table);
 /// JSON, another format or version, a missing or wrong field, and whatever Table's constructor refuses.
 Table tableFromJson(std::string_view text, const std::string& name);
 
+/// InputError with `name` for text that is no JSON at all.
+void checkJson(std::string_view text, const std::string& name);
+
 }  // namespace ltcfit

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "export/atomic_file.h"
@@ -23,6 +26,32 @@ std::size_t numberCount(const std::vector<std::size_t>& shape) {
     n *= s;
   }
   return n;
+}
+
+// A number's type: bytes, and whether the last one comes first.
+struct NumberType {
+  std::size_t size = 0;
+  bool bigEndian = false;
+};
+
+NumberType parseType(std::string_view header, const std::string& name) {
+  constexpr std::string_view kKey = "'descr': '";
+  const std::size_t key = header.find(kKey);
+  const std::string_view type = key == std::string_view::npos ? "" : header.substr(key + kKey.size(), 4);
+  for (const std::size_t size : {std::size_t{2}, std::size_t{4}, std::size_t{8}}) {
+    if (type == fmt::format("<f{}'", size)) return {size, false};
+    if (type == fmt::format(">f{}'", size)) return {size, true};
+  }
+  throw InputError(
+      fmt::format("{}: .npy header: its numbers are not float16, float32 or float64 ('<f2', '<f4', '<f8', or "
+                  "'>' in front)",
+                  name));
+}
+
+bool parseFortranOrder(std::string_view header, const std::string& name) {
+  if (header.find("'fortran_order': False") != std::string_view::npos) return false;
+  if (header.find("'fortran_order': True") != std::string_view::npos) return true;
+  throw InputError(name + ": .npy header: cannot read 'fortran_order'");
 }
 
 // The tuple behind 'shape': of the header's Python dict.
@@ -50,6 +79,56 @@ std::vector<std::size_t> parseShape(std::string_view header, const std::string& 
   }
   bad();
   return shape;
+}
+
+// The indices of number `flat` of an array in C order.
+std::vector<std::size_t> indicesOf(std::size_t flat, const std::vector<std::size_t>& shape) {
+  std::vector<std::size_t> indices(shape.size());
+  for (std::size_t d = shape.size(); d-- > 0;) {
+    indices[d] = flat % shape[d];
+    flat /= shape[d];
+  }
+  return indices;
+}
+
+float rounded(double value, std::size_t flat, const std::vector<std::size_t>& shape,
+              const std::string& name) {
+  const auto out = static_cast<float>(value);
+  if (std::isfinite(value) && !std::isfinite(out)) {
+    throw InputError(fmt::format("{}: number [{}] = {} does not fit a float32", name,
+                                 fmt::join(indicesOf(flat, shape), ", "), value));
+  }
+  return out;
+}
+
+// The numbers in C order. Of Fortran's, where the first index is fastest, the place in the file is counted
+// along with the indices.
+std::vector<float> readNumbers(std::string_view bytes, NumberType type, bool fortran,
+                               const std::vector<std::size_t>& shape, const std::string& name) {
+  const std::size_t count = bytes.size() / type.size;
+  if (type.size < 8 && !type.bigEndian && !fortran)
+    return readValues(bytes, type.size == 2 ? Precision::kHalf : Precision::kFloat);
+  std::vector<std::size_t> strides(shape.size(), 1);  // in the file
+  for (std::size_t d = 1; d < shape.size(); ++d) strides[d] = strides[d - 1] * shape[d - 1];
+  std::vector<std::size_t> indices(shape.size(), 0);
+  std::vector<float> values(count);
+  for (std::size_t i = 0, place = 0; i < count; ++i) {
+    std::array<char, 8> number{};
+    bytes.copy(number.data(), type.size, (fortran ? place : i) * type.size);
+    if (type.bigEndian) std::reverse(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(type.size));
+    const std::string_view view(number.data(), number.size());
+    if (type.size == 2) values[i] = halfValue(readAt<std::uint16_t>(view, 0));
+    if (type.size == 4) values[i] = std::bit_cast<float>(readAt<std::uint32_t>(view, 0));
+    if (type.size == 8)
+      values[i] = rounded(std::bit_cast<double>(readAt<std::uint64_t>(view, 0)), i, shape, name);
+    for (std::size_t d = shape.size(); d-- > 0;) {
+      place += strides[d];
+      if (++indices[d] < shape[d]) break;
+      place -= strides[d] * shape[d];
+      indices[d] = 0;
+    }
+  }
+  return values;
 }
 
 }  // namespace
@@ -83,21 +162,17 @@ FloatArray parseNpy(std::string_view bytes, const std::string& name) {
   const std::size_t length = major == 1 ? readAt<std::uint16_t>(bytes, 8) : readAt<std::uint32_t>(bytes, 8);
   if (length > bytes.size() - start) throw InputError(name + ": cut off in its .npy header");
   const std::string_view header = bytes.substr(start, length);
-  const bool half = header.find("'descr': '<f2'") != std::string_view::npos;
-  if (!half && header.find("'descr': '<f4'") == std::string_view::npos)
-    throw InputError(name + ": .npy header: need little-endian float32 or float16 ('<f4', '<f2')");
-  if (header.find("'fortran_order': False") == std::string_view::npos) {
-    throw InputError(name + ": .npy header: need C order");
-  }
+  const NumberType type = parseType(header, name);
+  const bool fortran = parseFortranOrder(header, name);
   FloatArray array;
   array.shape = parseShape(header, name);
   const std::size_t count = numberCount(array.shape);
   const std::size_t present = bytes.size() - start - length;
-  if (count == 0 || count * (half ? 2 : 4) != present) {
+  if (count == 0 || count * type.size != present) {
     throw InputError(fmt::format("{}: shape {} does not fit the {} bytes of data", name,
                                  fmt::format("({})", fmt::join(array.shape, ", ")), present));
   }
-  array.values = readValues(bytes.substr(start + length), half ? Precision::kHalf : Precision::kFloat);
+  array.values = readNumbers(bytes.substr(start + length), type, fortran, array.shape, name);
   return array;
 }
 

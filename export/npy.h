@@ -21,8 +21,9 @@ std::string arrayToNpy(const FloatArray& array, Precision precision);
 
 bool isNpy(std::string_view bytes);
 
-/// Versions 1 to 3, little-endian float32 or float16 in C order. InputError for anything else and for a
-/// length that does not fit the shape.
+/// Versions 1 to 3: float16, float32 or float64, of either byte order, in C or Fortran order. Numbers are
+/// rounded to the nearest float32, and come in C order. InputError for anything else, for a length that does
+/// not fit the shape, and for a finite float64 beyond float32, naming its indices.
 FloatArray parseNpy(std::string_view bytes, const std::string& name);
 
 }  // namespace ltcfit

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "export/atomic_file.h"
-#include "export/exr.h"
 #include "export/png_reader.h"
 
 namespace ltcfit {
@@ -17,34 +15,6 @@ namespace {
 constexpr std::string_view kPngMagic("\x89PNG\r\n\x1A\n", 8);
 // Pixels that a byte of the file can stand for: 1032 bytes by deflate, of 8 pixels of one bit.
 constexpr std::uint64_t kMaxPixelsPerByte = 1032 * 8;
-constexpr std::uint64_t kMaxPictureFile = std::uint64_t{1} << 30;
-
-void checkSize(std::size_t width, std::size_t height, const std::string& name) {
-  if (width == 0 || height == 0 || width > kMaxPictureSide || height > kMaxPictureSide) {
-    throw InputError(
-        fmt::format("{}: a picture of {} x {} pixels; need 1 to {}", name, width, height, kMaxPictureSide));
-  }
-}
-
-LinearPicture pictureOfExr(std::string_view bytes, const std::string& name) {
-  const ExrFile file = parseExrPicture(bytes, name);
-  // in the order of their names: B, G, R, or Y alone
-  const std::size_t last = file.channels.size() - 1;
-  LinearPicture picture{file.width, file.height, {}};
-  picture.texels.resize(file.width * file.height);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t channel = last - std::min(c, last);
-    const std::vector<float>& values = file.channels[channel];
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!std::isfinite(values[i])) {
-        throw InputError(fmt::format("{}: EXR: channel {}, row {}, column {} is not finite", name,
-                                     file.names[channel], i / file.width, i % file.width));
-      }
-      picture.texels[i][static_cast<Eigen::Index>(c)] = std::max(0.0, static_cast<double>(values[i]));
-    }
-  }
-  return picture;
-}
 
 // The linear value of each of `count` steps. libpng's own conversion of 16 bits takes a power of 2.2 for
 // sRGB and is off by 2 %.
@@ -64,6 +34,13 @@ std::vector<double> linearValues(const PngReader& reader, std::size_t count) {
 
 }  // namespace
 
+void checkPictureSize(std::size_t width, std::size_t height, const std::string& name) {
+  if (width == 0 || height == 0 || width > kMaxPictureSide || height > kMaxPictureSide) {
+    throw InputError(
+        fmt::format("{}: a picture of {} x {} pixels; need 1 to {}", name, width, height, kMaxPictureSide));
+  }
+}
+
 double linearFromSrgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
@@ -80,7 +57,7 @@ LinearPicture parsePng(std::string_view bytes, const std::string& name) {
   if (!readPngHeader(reader.png, reader.info)) damaged();
   const std::size_t width = png_get_image_width(reader.png, reader.info);
   const std::size_t height = png_get_image_height(reader.png, reader.info);
-  checkSize(width, height, name);
+  checkPictureSize(width, height, name);
   if (width * height / kMaxPixelsPerByte > bytes.size())
     throw InputError(name + ": PNG: more pixels than its length can hold");
   const bool deep = png_get_bit_depth(reader.png, reader.info) == 16;
@@ -102,13 +79,6 @@ LinearPicture parsePng(std::string_view bytes, const std::string& name) {
         alpha * Eigen::Vector3d(linear[value(4 * i)], linear[value(4 * i + 1)], linear[value(4 * i + 2)]));
   }
   return picture;
-}
-
-LinearPicture readPicture(const std::string& path) {
-  const std::string bytes = readFile(path, kMaxPictureFile);
-  if (isPng(bytes)) return parsePng(bytes, path);
-  if (isExr(bytes)) return pictureOfExr(bytes, path);
-  throw InputError(path + ": neither a PNG nor an EXR picture");
 }
 
 }  // namespace ltcfit

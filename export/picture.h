@@ -19,6 +19,9 @@ struct LinearPicture {
 /// Largest width and height of a picture.
 inline constexpr std::size_t kMaxPictureSide = 8192;
 
+/// InputError with `name` where a side is 0 or more than that.
+void checkPictureSize(std::size_t width, std::size_t height, const std::string& name);
+
 /// The linear value of an sRGB one, both 0..1 (IEC 61966-2-1).
 double linearFromSrgb(double value);
 
@@ -30,10 +33,5 @@ bool isPng(std::string_view bytes);
 /// kMaxPictureSide, or claims more pixels than its length can hold, before anything of that size is
 /// allocated.
 LinearPicture parsePng(std::string_view bytes, const std::string& name);
-
-/// A PNG, or an EXR as parseExrPicture reads it, which is linear (alpha is multiplied in there already, and
-/// ignored; negative values, which filters and colours out of gamut leave, become 0: no light has them).
-/// InputError naming the file for anything else and for values that are not finite.
-LinearPicture readPicture(const std::string& path);
 
 }  // namespace ltcfit

@@ -17,6 +17,7 @@
 #include "export/little_endian.h"
 #include "export/npy.h"
 #include "export/published_table.h"
+#include "export/second_texture.h"
 #include "export/source_table.h"
 #include "export/texture_files.h"
 #include "export/texture_metadata.h"
@@ -28,17 +29,6 @@ namespace {
 constexpr std::uint64_t kMaxSidecar = std::uint64_t{1} << 26;
 // 64^4 nodes of 9 numbers in binary; in JSON 32^4.
 constexpr std::uint64_t kMaxTable = std::uint64_t{1} << 30;
-
-// Where the second texture of the 2017 table lies: "ltc2017-1.npy" has "ltc2017-2.npy" beside it.
-std::string secondTexturePath(const std::string& path) {
-  std::filesystem::path p(path);
-  std::string stem = p.stem().string();
-  const std::size_t at = stem.rfind('1');
-  if (at == std::string::npos) return {};
-  stem[at] = '2';
-  p.replace_filename(stem + p.extension().string());
-  return std::filesystem::exists(p) ? p.string() : std::string();
-}
 
 // The metadata beside a file, if there are any. That they are the file's own is checked, not believed.
 std::optional<PackedTable> readSidecar(const std::string& path, std::string_view bytes) {
@@ -120,24 +110,51 @@ std::vector<Image> layersOf(const Image& image) {
   return layers;
 }
 
-// The layout of 2017, whose second texture is the second layer or another file.
-PackedTable packedWithoutMetadata(const Image& image, const std::string& path) {
-  if (image.layers == 2) {
-    const std::vector<Image> layers = layersOf(image);
-    return packedFrom2017(layers[0], &layers[1], path);
+bool looksLikeText(std::string_view bytes) {
+  return bytes.find('\0') == std::string_view::npos;
+}
+
+// What is read, and the remarks to make about it.
+struct Reading {
+  const ReadOptions& options;
+  std::vector<std::string> notes;
+  bool tookSecond = false;
+};
+
+std::optional<std::string> secondTexturePath(const std::string& path, const ReadOptions& options) {
+  return options.second.empty() ? secondTextureBeside(path) : options.second;
+}
+
+// Norm and Fresnel for the texels of `first`, from any file of one texture.
+Image readSecond(const std::string& path, const Image& first) {
+  const std::string bytes = readFile(path, kMaxTable);
+  const bool isText = !isNpy(bytes) && !isDds(bytes) && !isKtx2(bytes) && looksLikeText(bytes);
+  Image second = isText ? amplitudesOfSource(bytes, first, path) : readImage(bytes, path);
+  refuseNonFinite(second, {}, path);
+  return second;
+}
+
+// The layout of 2017, of one texture or two; where it is one, the second is its second layer or another file.
+PackedTable packedWithoutMetadata(std::vector<Image> textures, const std::string& path, Reading& reading) {
+  for (std::size_t t = 0; t < textures.size(); ++t)
+    refuseNonFinite(textures[t], {}, textures.size() == 1 ? path : fmt::format("{}: texture {}", path, t));
+  if (textures.size() == 1 && textures[0].layers == 2) textures = layersOf(textures[0]);
+  if (textures.size() == 1) {
+    if (const std::optional<std::string> second = secondTexturePath(path, reading.options)) {
+      reading.notes.push_back(fmt::format("{}: norm and Fresnel are taken from {}", path, *second));
+      reading.tookSecond = true;
+      textures.push_back(readSecond(*second, textures[0]));
+    }
   }
-  const std::string second = secondTexturePath(path);
-  if (second.empty()) return packedFrom2017(image, nullptr, path);
-  const Image secondImage = readImage(readFile(second, kMaxTable), second);
-  return packedFrom2017(image, &secondImage, path);
+  return packedFrom2017(textures[0], textures.size() > 1 ? &textures[1] : nullptr, path);
 }
 
 TableFile fileOf(PackedTable packed, const std::string& format, const std::string& path) {
   Table table = tableFromPacked(packed, path);
-  return {std::move(table), format, std::move(packed)};
+  return {std::move(table), format, std::move(packed), {}};
 }
 
-TableFile readTexture(const std::string& bytes, const std::string& path) {
+TableFile readTexture(const std::string& bytes, const std::string& path, Reading& reading) {
   if (isKtx2(bytes)) {
     const Ktx2File file = parseKtx2(bytes, path);
     for (const auto& [key, value] : file.keyValues) {
@@ -148,7 +165,7 @@ TableFile readTexture(const std::string& bytes, const std::string& path) {
       packed->images = readFiles(*packed, bytes, path);
       return fileOf(std::move(*packed), "KTX2", path);
     }
-    return fileOf(packedWithoutMetadata(file.image, path), "KTX2", path);
+    return fileOf(packedWithoutMetadata({file.image}, path, reading), "KTX2", path);
   }
   std::optional<PackedTable> packed = readSidecar(path, bytes);
   if (isNpy(bytes)) {
@@ -158,11 +175,11 @@ TableFile readTexture(const std::string& bytes, const std::string& path) {
     }
     const FloatArray array = parseNpy(bytes, path);
     if (packed) return fileOf(packedFromNumbers(std::move(*packed), array.values, path), ".npy", path);
-    if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt};
-    return fileOf(packedWithoutMetadata(imageOfArray(array, path), path), ".npy", path);
+    if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt, {}};
+    return fileOf(packedWithoutMetadata({imageOfArray(array, path)}, path, reading), ".npy", path);
   }
   const Image image = parseDds(bytes, path);
-  if (!packed) return fileOf(packedWithoutMetadata(image, path), "DDS", path);
+  if (!packed) return fileOf(packedWithoutMetadata({image}, path, reading), "DDS", path);
   if (packed->files.size() == 1) return fileOf(packedFromStack(std::move(*packed), image, path), "DDS", path);
   packed->images = readFiles(*packed, bytes, path);
   return fileOf(std::move(*packed), "DDS", path);
@@ -184,13 +201,63 @@ std::vector<float> numbersOfBinary(std::string_view bytes, const PackedTable& pa
   return first;
 }
 
-bool looksLikeText(std::string_view bytes) {
-  return bytes.find('\0') == std::string_view::npos;
+// The table in a text, which need not hold one: then `arrays` tells what was found instead.
+std::optional<TableFile> readSource(const std::string& text, const std::string& path, Reading& reading,
+                                    std::string& arrays) {
+  SourceContents contents =
+      contentsOfSource(text, path, secondTexturePath(path, reading.options).has_value());
+  arrays = contents.arrays;
+  if (!contents.textures.empty()) {
+    contents.table =
+        tableFromPacked(packedWithoutMetadata(std::move(contents.textures), path, reading), path);
+  }
+  if (!contents.table) return std::nullopt;
+  return TableFile{std::move(*contents.table), "source code", std::nullopt, {}};
+}
+
+// Whether a JSON object is a table of ours, damaged or not.
+bool isTableJson(std::string_view text) {
+  return text.find("\"format\"") != std::string_view::npos || text.find("\"axes\"") != std::string_view::npos;
+}
+
+TableFile readAny(const std::string& path, Reading& reading) {
+  const std::string bytes = readFile(path, kMaxTable);
+  if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path, reading);
+  if (isExr(bytes)) return fileOf(packedFromExr(bytes, path), "EXR", path);
+  // a byte order mark, as editors of one vendor leave it, is not part of the text
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+  if (start == std::string::npos) throw InputError(path + ": is empty");
+  if (bytes[start] == '{') {
+    if (isTextureMetadata(bytes))
+      throw InputError(path + ": describes a texture file; give that one (the name without .json)");
+    if (isChebyshevJson(bytes))
+      return {tableOfChebyshev(chebyshevFromJson(bytes, path)), "Chebyshev form", std::nullopt, {}};
+    if (isTableJson(bytes)) return {tableFromJson(bytes, path), "JSON", std::nullopt, {}};
+    checkJson(bytes, path);
+  }
+  std::string arrays;
+  if (looksLikeText(bytes)) {
+    if (std::optional<TableFile> file = readSource(bytes, path, reading, arrays)) return std::move(*file);
+  }
+  // a few numbers may have no zero byte
+  if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
+    const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
+    return fileOf(packedFromNumbers(std::move(*packed), numbers, path), "binary", path);
+  }
+  if (!looksLikeText(bytes)) {
+    if (std::optional<Table> table = tableFromEngineBinary(bytes, path))
+      return {std::move(*table), "binary", std::nullopt, {}};
+  }
+  throw InputError(
+      fmt::format("{}: not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, source code or JSON with "
+                  "the arrays of one, "
+                  "nor PlayCanvas' or Babylon.js' binary{}",
+                  path, arrays.empty() ? std::string() : "; arrays found: " + arrays));
 }
 
 }  // namespace
 
-std::vector<std::string> filesOfTable(const std::string& path) {
+std::vector<std::string> filesOfTable(const std::string& path, const ReadOptions& options) {
   std::vector<std::string> files{path};
   const std::string beside = sidecarPath(path);
   std::error_code error;
@@ -203,44 +270,24 @@ std::vector<std::string> filesOfTable(const std::string& path) {
       // not a description: still not to be overwritten by accident
     }
   }
-  if (const std::string second = secondTexturePath(path); !second.empty()) files.push_back(second);
+  if (const std::optional<std::string> second = secondTexturePath(path, options)) files.push_back(*second);
   return files;
 }
 
-Table readTable(const std::string& path) {
-  return readTableFile(path).table;
+Table readTable(const std::string& path, const ReadOptions& options) {
+  return readTableFile(path, options).table;
 }
 
-TableFile readTableFile(const std::string& path) {
-  const std::string bytes = readFile(path, kMaxTable);
-  if (isNpy(bytes) || isDds(bytes) || isKtx2(bytes)) return readTexture(bytes, path);
-  if (isExr(bytes)) return fileOf(packedFromExr(bytes, path), "EXR", path);
-  // a byte order mark, as editors of one vendor leave it, is not part of the text
-  const std::size_t start = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
-  if (start == std::string::npos) throw InputError(path + ": is empty");
-  if (bytes[start] == '{') {
-    if (isTextureMetadata(bytes))
-      throw InputError(path + ": describes a texture file; give that one (the name without .json)");
-    if (isChebyshevJson(bytes))
-      return {tableOfChebyshev(chebyshevFromJson(bytes, path)), "Chebyshev form", std::nullopt};
-    return {tableFromJson(bytes, path), "JSON", std::nullopt};
+TableFile readTableFile(const std::string& path, const ReadOptions& options) {
+  Reading reading{options, {}, false};
+  TableFile file = readAny(path, reading);
+  if (!options.second.empty() && !reading.tookSecond) {
+    throw InputError(
+        fmt::format("--second {}: {} has its norm and Fresnel, or a description of where they are, already",
+                    options.second, path));
   }
-  if (looksLikeText(bytes)) {
-    if (std::optional<Table> table = tableFromSource(bytes, path))
-      return {std::move(*table), "source code", std::nullopt};
-  }
-  // a few numbers may have no zero byte
-  if (std::optional<PackedTable> packed = readSidecar(path, bytes)) {
-    const std::vector<float> numbers = numbersOfBinary(bytes, *packed, path);
-    return fileOf(packedFromNumbers(std::move(*packed), numbers, path), "binary", path);
-  }
-  if (!looksLikeText(bytes)) {
-    if (std::optional<Table> table = tableFromEngineBinary(bytes, path))
-      return {std::move(*table), "binary", std::nullopt};
-  }
-  throw InputError(path +
-                   ": not a table: neither ltcfit's JSON, KTX2, EXR, DDS or .npy, a C header, a JavaScript "
-                   "module with LTC_MAT_1, nor PlayCanvas' or Babylon.js' binary");
+  file.notes = std::move(reading.notes);
+  return file;
 }
 
 }  // namespace ltcfit

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
+#include <map>
 
 #include "export/atomic_file.h"
 #include "export/little_endian.h"
 #include "export/npy.h"
 #include "export/published_table.h"
+#include "export/table_arrays.h"
 #include "export/text_arrays.h"
 #include "export/texture_files.h"
 #include "export/texture_metadata.h"
@@ -19,31 +19,18 @@
 namespace ltcfit {
 namespace {
 
-constexpr std::size_t kEngineTexels = 64 * 64;
+constexpr std::size_t kEngineSide = 64;
+// What is read of an array that broke off, for it to be told: less is some other list.
+constexpr std::size_t kNotable = 16;
+constexpr float kLargestHalfBits = 65535.0f;
+constexpr float kNotableHalfBits =
+    12288.0f;  // of 0.125: every table has larger numbers, and no other integers
 
-// A square texture of so many components; nothing where the count is not that of one.
-std::optional<Image> squareImage(std::vector<float> values, std::size_t components) {
-  const std::size_t texels = values.size() / components;
-  const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(texels))));
-  if (side < 2 || side * side * components != values.size()) return std::nullopt;
-  Image image;
-  image.width = side;
-  image.height = side;
-  image.components = components;
-  image.values = std::move(values);
-  return image;
+// Our headers may have matrices only, and HDRP's never have more. Of other engines' files the second array
+// was lost.
+bool standsAlone(std::string_view name) {
+  return name.ends_with("_matrix") || name.find("LtcMatrixData") != std::string_view::npos;
 }
-
-// Whether `text` ends with one of these, in whatever case.
-bool isNamed(std::string name, std::span<const std::string_view> endings) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::any_of(endings.begin(), endings.end(), [&](std::string_view e) { return name.ends_with(e); });
-}
-
-constexpr std::array<std::string_view, 5> kMatrixNames{"ltc_mat_1", "_matrix", "ltc_mat_ggx", "ltcmat",
-                                                       "ltc1"};
-constexpr std::array<std::string_view, 5> kAmplitudeNames{"ltc_mat_2", "_amplitude", "ltc_mag_ggx", "ltcamp",
-                                                          "ltc2"};
 
 std::size_t countOf(std::string_view text, std::string_view part) {
   std::size_t count = 0;
@@ -63,29 +50,42 @@ void checkNotCutOff(std::string_view text, const std::string& name) {
     throw InputError(name + ": cut off: no metadata behind LTC_INFO");
 }
 
-// Throws where one of these names is that of an array that broke off.
-void refuseDamaged(const std::vector<std::string>& damaged, std::span<const std::string_view> endings,
-                   const std::string& name) {
-  for (const std::string& array : damaged) {
-    if (isNamed(array, endings))
-      throw InputError(name + ": " + array + ": cut off, or something in it is no number");
+// Throws for an array that broke off, if one may be the table's.
+void refuseDamaged(const std::vector<DamagedArray>& damaged, const std::string& name) {
+  for (const DamagedArray& array : damaged) {
+    if (roleOf(array.name) == Role::kUnknown && array.numbers < kNotable) continue;
+    throw InputError(
+        fmt::format("{}: {}: cut off, or something in it is no number: {} behind {} numbers (of 4 a texel: "
+                    "texel {}, component "
+                    "{})",
+                    name, array.name, array.found.empty() ? "the end" : "'" + array.found + "'",
+                    array.numbers, array.numbers / 4, array.numbers % 4));
   }
 }
 
+// Bits of halves become the numbers that they are.
+void decodeHalves(std::vector<float>& values) {
+  const bool integers = std::all_of(values.begin(), values.end(), [](float v) {
+    return v >= 0.0f && v <= kLargestHalfBits && v == std::floor(v);
+  });
+  if (!integers || *std::max_element(values.begin(), values.end()) < kNotableHalfBits) return;
+  for (float& v : values) v = halfValue(static_cast<std::uint16_t>(v));
+}
+
+bool isAnisotropic(const TextArray& array) {
+  const std::vector<std::size_t>& s = array.shape;
+  return (s.size() == 5 && s[4] == 9) || (s.size() == 6 && s[4] == 3 && s[5] == 3);
+}
+
 Table anisotropicTable(TextArray& matrices, const std::vector<TextArray>& arrays, const std::string& name) {
-  FloatArray array{matrices.shape, std::move(matrices.values)};
-  array.shape.back() = 3;
-  array.shape.push_back(3);
-  std::size_t count = 1;
-  for (std::size_t s : array.shape) {
-    if (s == 0 || s > array.values.size()) count = 0;
-    count *= s;  // six factors of at most the file's length: checked next, wrapped or not
-  }
-  if (count != array.values.size())
+  if (productOf(matrices.shape) != matrices.values.size())
     throw InputError(name + ": " + matrices.name + ": its size is not its declaration");
+  FloatArray array{matrices.shape, std::move(matrices.values)};
+  array.shape.resize(4);
+  array.shape.insert(array.shape.end(), {3, 3});
   const Table table = tableFrom2022(array, name);
   const auto amplitude = std::find_if(arrays.begin(), arrays.end(), [&](const TextArray& a) {
-    return a.name == matrices.name + "_amplitude" && a.values.size() == table.nodeCount() * 2;
+    return roleOf(a.name) == Role::kAmplitudes && a.values.size() == table.nodeCount() * 2;
   });
   if (amplitude == arrays.end()) return table;
   TableInfo info = table.info();
@@ -108,8 +108,9 @@ Table describedTable(PackedTable packed, const std::vector<TextArray>& arrays, c
   std::size_t found = 0;
   std::vector<float> numbers;
   for (const TextArray& array : arrays) {
-    // what else a file declares, or writes in its comment, is not as long
-    if (found == textures.size() || array.values.size() != nodes * textures[found].components.size())
+    // what else a file declares is not as long, or a member of the description
+    if (array.isMember || found == textures.size() ||
+        array.values.size() != nodes * textures[found].components.size())
       continue;
     numbers.insert(numbers.end(), array.values.begin(), array.values.end());
     ++found;
@@ -117,53 +118,86 @@ Table describedTable(PackedTable packed, const std::vector<TextArray>& arrays, c
   return tableFromPacked(packedFromNumbers(std::move(packed), numbers, name), name);
 }
 
+// Of arrays of one name the last one counts, as it does for a program.
+std::vector<TextArray> withoutDoubles(std::vector<TextArray> arrays) {
+  std::map<std::string, std::size_t> last;
+  for (std::size_t i = 0; i < arrays.size(); ++i) last[arrays[i].name] = i;
+  std::vector<TextArray> out;
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+    if (last[arrays[i].name] == i) out.push_back(std::move(arrays[i]));
+  return out;
+}
+
 }  // namespace
 
-std::optional<Table> tableFromSource(std::string_view text, const std::string& name) {
-  std::vector<std::string> damaged;
+SourceContents contentsOfSource(std::string_view text, const std::string& name, bool isFirstOfTwo) {
+  std::vector<DamagedArray> damaged;
   std::vector<TextArray> arrays = arraysOfText(text, &damaged);
-  const std::optional<std::string> metadata = metadataOfSource(text);
-  if (metadata) return describedTable(packedFromMetadata(*metadata, name), arrays, name);
-  for (TextArray& array : arrays) {
-    if (array.shape.size() == 5 && array.shape.back() == 9) {
-      checkNotCutOff(text, name);
-      refuseDamaged(damaged, kAmplitudeNames, name);
-      return anisotropicTable(array, arrays, name);
-    }
+  SourceContents contents;
+  if (const std::optional<std::string> metadata = metadataOfSource(text)) {
+    contents.table = describedTable(packedFromMetadata(*metadata, name), arrays, name);
+    return contents;
   }
-  refuseDamaged(damaged, kMatrixNames, name);
-  refuseDamaged(damaged, kAmplitudeNames, name);
-  const TextArray* matrices = nullptr;
-  const TextArray* amplitudes = nullptr;
-  for (const TextArray& array : arrays) {
-    if (isNamed(array.name, kMatrixNames)) matrices = &array;
-    if (isNamed(array.name, kAmplitudeNames)) amplitudes = &array;
+  arrays = withoutDoubles(std::move(arrays));
+  contents.arrays = listOf(arrays);
+  if (const auto matrices = std::find_if(arrays.begin(), arrays.end(), isAnisotropic);
+      matrices != arrays.end()) {
+    checkNotCutOff(text, name);
+    refuseDamaged(damaged, name);
+    contents.table = anisotropicTable(*matrices, arrays, name);
+    return contents;
   }
-  if (matrices == nullptr) return std::nullopt;
+  for (TextArray& array : arrays) decodeHalves(array.values);
+  std::vector<Candidate> found = pairsOf(arrays, name);
+  if (found.empty()) {
+    refuseDamaged(damaged, name);
+    found = matricesOf(arrays, name);
+    if (found.empty()) return contents;
+  }
+  const Candidate chosen = bestOf(found, name, contents.arrays);
+  const TextArray& matrices = *chosen.matrices;
+  if (chosen.amplitudes == nullptr && !isFirstOfTwo && !standsAlone(matrices.name)) {
+    // a list of numbers of some other kind
+    if (!chosen.fits && chosen.names == 0) return contents;
+    throw InputError(
+        fmt::format("{}: {} without the array of norm and Fresnel: cut off, or in another file (--second)? "
+                    "Arrays found: {}",
+                    name, matrices.name, contents.arrays));
+  }
   checkNotCutOff(text, name);
-  const std::optional<Image> first = squareImage(matrices->values, 4);
-  if (!first) {
-    throw InputError(fmt::format("{}: {} holds {} numbers, which are no square texture of 4", name,
-                                 matrices->name, matrices->values.size()));
+  contents.textures.push_back(imageOf(matrices, chosen.size));
+  contents.names.push_back(matrices.name);
+  if (chosen.amplitudes != nullptr) {
+    contents.textures.push_back(imageOf(*chosen.amplitudes, chosen.size));
+    contents.names.push_back(chosen.amplitudes->name);
   }
-  if (amplitudes == nullptr) {
-    // our headers may have matrices only; of the engines' files the second array was lost
-    if (!matrices->name.ends_with("_matrix"))
-      throw InputError(name + ": " + matrices->name + " without the array of norm and Fresnel: cut off?");
-    return tableFrom2017(*first, nullptr, name);
+  return contents;
+}
+
+Image amplitudesOfSource(std::string_view text, const Image& first, const std::string& name) {
+  std::vector<DamagedArray> damaged;
+  std::vector<TextArray> arrays = withoutDoubles(arraysOfText(text, &damaged));
+  refuseDamaged(damaged, name);
+  checkNotCutOff(text, name);
+  for (TextArray& array : arrays) decodeHalves(array.values);
+  const TextureSize size{first.width, first.height};
+  const std::vector<Candidate> found = amplitudesFor(arrays, size);
+  if (found.empty()) {
+    throw InputError(fmt::format("{}: no array of 2 to 4 numbers for each of {} x {} texels; found: {}", name,
+                                 first.width, first.height, arrays.empty() ? "none" : listOf(arrays)));
   }
-  const std::size_t components = amplitudes->values.size() / first->texels();
-  const std::optional<Image> second =
-      squareImage(amplitudes->values, std::clamp<std::size_t>(components, 1, 4));
-  if (!second) {
-    throw InputError(fmt::format("{}: {} holds {} numbers, which do not go with {}", name, amplitudes->name,
-                                 amplitudes->values.size(), matrices->name));
-  }
-  return tableFrom2017(*first, &*second, name);
+  return imageOf(*bestOf(found, name, listOf(arrays)).amplitudes, size);
+}
+
+std::optional<Table> tableFromSource(std::string_view text, const std::string& name) {
+  SourceContents contents = contentsOfSource(text, name);
+  if (contents.textures.empty()) return std::move(contents.table);
+  const Image* const second = contents.textures.size() > 1 ? &contents.textures[1] : nullptr;
+  return tableFrom2017(contents.textures[0], second, name);
 }
 
 std::optional<Table> tableFromEngineBinary(std::string_view bytes, const std::string& name) {
-  constexpr std::size_t kNumbers = kEngineTexels * 4;
+  constexpr std::size_t kNumbers = kEngineSide * kEngineSide * 4;
   std::vector<float> t1;
   std::vector<float> t2;
   if (bytes.size() == 4 + 2 * kNumbers * sizeof(float) && readAt<std::uint32_t>(bytes, 0) == 0x00010000) {
@@ -175,9 +209,14 @@ std::optional<Table> tableFromEngineBinary(std::string_view bytes, const std::st
   } else {
     return std::nullopt;
   }
-  const std::optional<Image> first = squareImage(std::move(t1), 4);
-  const std::optional<Image> second = squareImage(std::move(t2), 4);
-  return tableFrom2017(*first, &*second, name);
+  const auto image = [](std::vector<float> values) {
+    Image square;
+    square.width = square.height = kEngineSide;
+    square.values = std::move(values);
+    return square;
+  };
+  const Image second = image(std::move(t2));
+  return tableFrom2017(image(std::move(t1)), &second, name);
 }
 
 }  // namespace ltcfit

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/refusal.h"
@@ -230,7 +231,31 @@ std::vector<ExportFile> toRawFiles(const PackedTable& packed, const std::string&
   return toRawFiles(packed, std::move(bytes), name, kRawContainer);
 }
 
+void refuseNonFinite(const Image& image, const std::vector<std::string>& components,
+                     const std::string& name) {
+  const auto bad =
+      std::find_if(image.values.begin(), image.values.end(), [](float v) { return !std::isfinite(v); });
+  if (bad == image.values.end()) return;
+  const auto at = static_cast<std::size_t>(bad - image.values.begin());
+  const std::size_t component = at % image.components;
+  const std::size_t texel = at / image.components;
+  const std::size_t row = texel / image.width;
+  const std::size_t slice = row / image.height;
+  std::string place =
+      fmt::format("texel y {}, x {}, component {}", row % image.height, texel % image.width, component);
+  if (component < components.size()) place += " (" + components[component] + ")";
+  if (image.depth > 1) place = fmt::format("slice z {}, {}", slice % image.depth, place);
+  if (image.layers > 1) place = fmt::format("layer {}, {}", slice / image.depth, place);
+  throw InputError(fmt::format("{}: {} is not finite", name, place));
+}
+
 Table tableFromPacked(const PackedTable& packed, const std::string& name) {
+  for (std::size_t t = 0; t < packed.images.size() && t < packed.packing.textures.size(); ++t) {
+    const TextureSpec& texture = packed.packing.textures[t];
+    const bool alone = packed.packing.textures.size() == 1;
+    refuseNonFinite(packed.images[t], texture.components,
+                    alone ? name : fmt::format("{}: texture '{}'", name, texture.name));
+  }
   try {
     return unpack(packed);
   } catch (const Refusal& error) {

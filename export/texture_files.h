@@ -58,7 +58,11 @@ PackedTable packedFromExr(std::string_view bytes, const std::string& name);
 /// Numbers of .npy or raw files.
 PackedTable packedFromNumbers(PackedTable packed, const std::vector<float>& numbers, const std::string& name);
 
-/// unpack for what came from a file: InputError with `name`.
+/// InputError with `name` where a number of a texture is not finite, by its texel: "texel y 7, x 3, component
+/// 2 (m02)", with z and layer where there are several. `components` are the names, or empty.
+void refuseNonFinite(const Image& image, const std::vector<std::string>& components, const std::string& name);
+
+/// unpack for what came from a file: InputError with `name`, also for numbers that are not finite.
 Table tableFromPacked(const PackedTable& packed, const std::string& name);
 
 /// The key and attribute that holds the metadata.

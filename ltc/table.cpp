@@ -25,9 +25,11 @@ constexpr std::array<AxisRange, 4> kAnisotropicAxes{
     {{"alpha", 0.0, 1.0}, {"lambda", 0.0, 1.0}, {"theta", 0.0, kHalfPi}, {"phi", 0.0, kHalfPi}}};
 // Slack for angles that were written with few digits.
 constexpr double kRangeSlack = 1e-6;
-// A node inside the axis may differ from its texel's coordinate by this much of a texel: rounding in the
-// file.
+// A node inside the axis may differ from its texel's coordinate by this much of a texel, for rounding in the
+// file, or by this part of the axis: the authors of 2022 fitted every theta at 0.9999 of where it is looked
+// up.
 constexpr double kTexelSlack = 1e-3;
+constexpr double kAxisSlack = 1.0001e-4;
 // Nodes per axis: far above any texture, far below what overflows a count.
 constexpr std::size_t kMaxNodes = 65536;
 // Nodes of a table: 64^4, the largest that was ever proposed (KT et al. 2022, section 8), fits with room.
@@ -74,7 +76,8 @@ void validateAxis(const Axis& axis, const AxisRange& range) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     // only the first and last node may be clamped, and not as far as the next texel
     const bool end = i == 0 || i + 1 == v.size();
-    const double slack = end ? 1.0 - kTexelSlack : kTexelSlack;
+    const double inside = std::max(kTexelSlack, kAxisSlack * static_cast<double>(v.size() - 1));
+    const double slack = end ? 1.0 - kTexelSlack : inside;
     if (v[i] < axis.low - kRangeSlack || v[i] > axis.high + kRangeSlack ||
         !(std::abs(axis.texelFromValue(v[i]) - static_cast<double>(i)) <= slack)) {
       fail(where + " values[" + std::to_string(i) + "] is not where its map '" +
@@ -143,7 +146,19 @@ Table::Table(TableInfo info, std::vector<float> data) : info_(std::move(info)), 
          std::to_string(nodeCount_) + " x " + std::to_string(channelCount()));
   }
   const auto bad = std::find_if(data_.begin(), data_.end(), [](float x) { return !std::isfinite(x); });
-  if (bad != data_.end()) fail("data[" + std::to_string(bad - data_.begin()) + "] is not finite");
+  if (bad != data_.end())
+    fail(numberName(info_, static_cast<std::size_t>(bad - data_.begin())) + " is not finite");
+}
+
+std::string numberName(const TableInfo& info, std::size_t index) {
+  std::size_t rest = info.channels.empty() ? 0 : index / info.channels.size();
+  std::string name;
+  for (auto axis = info.axes.rbegin(); axis != info.axes.rend() && axis->size() > 0; ++axis) {
+    name = axis->name + "[" + std::to_string(rest % axis->size()) + "], " + name;
+    rest /= axis->size();
+  }
+  if (info.channels.empty() || rest > 0) return "data[" + std::to_string(index) + "]";
+  return name + info.channels[index % info.channels.size()];
 }
 
 void Table::validateAxes() const {

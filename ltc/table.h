@@ -63,6 +63,10 @@ struct TableInfo {
   Provenance provenance;
 };
 
+/// The name of one number of a table's data in messages: "theta[7], alpha[3], m02"; "data[5]" where the
+/// numbers of `info` do not tell.
+std::string numberName(const TableInfo& info, std::size_t index);
+
 /// What a look-up yields.
 struct TableEntry {
   Eigen::Matrix3d m;

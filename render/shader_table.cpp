@@ -115,7 +115,10 @@ bool ShaderTable::hasFresnel() const {
 }
 
 ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes) {
-  TableFile file = readTableFile(path);
+  return makeShaderTable(readTableFile(path), path, amplitudes);
+}
+
+ShaderTable makeShaderTable(TableFile file, const std::string& path, const Table* amplitudes) {
   try {
     std::vector<std::string> added;
     if (amplitudes != nullptr && amplitudes->isIsotropic() == file.table.isIsotropic())

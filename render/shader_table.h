@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "export/image.h"
+#include "export/read_table.h"
 #include "export/shader_lookup.h"
 #include "ltc/table.h"
 
@@ -37,5 +38,7 @@ struct ShaderTable {
 /// that a table lacks are looked up in `amplitudes` at the nodes, if given, which changes no matrix. Throws
 /// InputError: not readable; an axis that no shader looks up (makeShaderLookup); no norm, and none to be had.
 ShaderTable loadShaderTable(const std::string& path, const Table* amplitudes = nullptr);
+/// The same of a file that was read; `path` is its name in messages.
+ShaderTable makeShaderTable(TableFile file, const std::string& path, const Table* amplitudes = nullptr);
 
 }  // namespace ltcfit

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "export/atomic_file.h"
+#include "export/jpeg_reader.h"
 #include "export/picture.h"
 #include "export/png_reader.h"
-#include "scene/jpeg_reader.h"
 
 namespace ltcfit {
 namespace {
@@ -64,10 +64,8 @@ TexelImage decodeJpeg(std::string_view bytes, const std::string& name, std::size
   JpegReader reader(bytes);
   const auto damaged = [&] { throw InputError(fmt::format("{} is damaged: {}", name, reader.message())); };
   if (!reader.readHeader()) damaged();
-  // 8 x 8 texels by one bit of a progressive scan, at least two scans
-  constexpr double kTexelsPerByte = 256.0;
-  checkSize(reader.width(), reader.height(), kTexelsPerByte * static_cast<double>(bytes.size()), bytes, name,
-            maxTexels);
+  const double most = static_cast<double>(kJpegPixelsPerByte * bytes.size());
+  checkSize(reader.width(), reader.height(), most, bytes, name, maxTexels);
   TexelImage image = imageOf(reader.width(), reader.height());
   if (!reader.readRows(image.texels[0].data())) damaged();
   return image;

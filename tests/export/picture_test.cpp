@@ -164,25 +164,5 @@ TEST(Picture, ClaimsOfSizeAreChecked) {
   EXPECT_NE(message(8192, 8192).find("more pixels"), std::string::npos) << message(8192, 8192);
 }
 
-TEST(Picture, ExrIsLinear) {
-  const std::string path = fmt::format("{}ltcfit-picture-{}.exr", testing::TempDir(), ::getpid());
-  ExrFile file{2, 1, Precision::kFloat, {"B", "G", "R", "A"}, {{3, 6}, {2, 5}, {1, -4}, {0.5f, 0}}, {}};
-  writeFileAtomically(path, channelsToExr(file));
-  const LinearPicture picture = readPicture(path);
-  expectNear(picture.texels[0], {1, 2, 3}, 0.0);
-  expectNear(picture.texels[1], {0, 5, 6}, 0.0);  // no light has -4
-  file = {2, 1, Precision::kHalf, {"Y"}, {{0.25f, 7}}, {}};
-  writeFileAtomically(path, channelsToExr(file));
-  expectNear(readPicture(path).texels[1], Vector3d::Constant(7), 0.0);
-  file.channels[0][1] = std::numeric_limits<float>::infinity();
-  writeFileAtomically(path, channelsToExr(file));
-  EXPECT_THROW(readPicture(path), InputError);
-  file = {1, 1, Precision::kHalf, {"R", "G"}, {{1}, {1}}, {}};
-  writeFileAtomically(path, channelsToExr(file));
-  EXPECT_THROW(readPicture(path), InputError);
-  writeFileAtomically(path, "hello");
-  EXPECT_THROW(readPicture(path), InputError);
-}
-
 }  // namespace
 }  // namespace ltcfit

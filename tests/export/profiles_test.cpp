@@ -121,6 +121,7 @@ TEST(Profiles, BytesAreThoseOfTheEngines) {
 
   const ExportResult three = exported("three", table);
   for (const TextArray& array : arraysOfText(three.files[0].bytes)) {
+    if (array.isMember) continue;  // of the description
     EXPECT_EQ(array.values, packed.images[array.name == "LTC_MAT_1" ? 0 : 1].values) << array.name;
   }
 }

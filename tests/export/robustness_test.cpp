@@ -1,5 +1,6 @@
 // Damaged files: every reader gives a table or an InputError, soon, and allocates no more than the file's
 // length bears out.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -255,6 +256,19 @@ std::vector<Sample> samples() {
                  },
                  32, true});
   all.push_back(exported(iso, "js", {}, "module"));
+  const std::string arrays = "[[1,0,2,4],[1,0,2,4],[1,0,2,4],[1,0,2,4]]";
+  for (const char* const language : {"pub const LTC_{}: [[f32; 4]; 4] = {};",
+                                     "export const ltc{}: number[][] = {};", "ushort[][] s_ltc{} = {};"}) {
+    const std::string form = language;
+    const std::string of = form.substr(0, form.find('{'));
+    const std::string second = form.starts_with("ushort")
+                                   ? "[[0x3c00,0x3000],[0x3c00,0x3000],[0x3c00,0x3000],[0x3c00,0x3000]]"
+                                   : "[[1,.25],[1,.25],[1,.25],[1,.25]]";
+    all.push_back({"source " + of,
+                   fmt::format(fmt::runtime(form), 1, arrays) + "\n" +
+                       fmt::format(fmt::runtime(form), 2, second) + "\n",
+                   [](std::string_view bytes) { return tableFromSource(bytes, "T"); }, 64, false});
+  }
   all.push_back(chebyshev());
   all.push_back(engineBinary(true));
   all.push_back(engineBinary(false));
@@ -396,7 +410,8 @@ TEST(RobustnessOf, TimeIsThatOfOnePass) {
     return out;
   };
   const auto start = std::chrono::steady_clock::now();
-  for (const char* text : {"]={", "=/*", "=//", "a[1]=[1,", "={-/*", "={", "=[[[["})
+  for (const char* text : {"]={", "=/*", "=//", "a[1]=[1,", "={-/*", "={", "=[[[[", "a:[", ":/*",
+                           "a:b=", "a=b.of(", "=new a[1]", "a=[1]b=[2]", "a=0x", "a:((((="})
     arraysOfText(repeated(text));
   std::string json = "{";
   for (int i = 0; i < 200000; ++i) json.append("\"").append(std::to_string(i)).append("\":0,");

@@ -200,7 +200,7 @@ TEST(Table, RefusesWhatIsNotATable) {
   std::vector<float> bad = data;
   bad[8] = std::numeric_limits<float>::infinity();
   expectMessage(
-      "data[8] is not finite", [](TableInfo&) {}, bad);
+      "theta[0], alpha[1], m02 is not finite", [](TableInfo&) {}, bad);
 }
 
 TEST(Table, AnAbsurdSizeIsRefusedBeforeItIsMultiplied) {

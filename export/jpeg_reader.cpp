@@ -1,4 +1,4 @@
-#include "scene/jpeg_reader.h"
+#include "export/jpeg_reader.h"
 
 // jpeglib.h needs both before it
 #include <jerror.h>

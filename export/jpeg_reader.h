@@ -9,6 +9,10 @@
 
 namespace ltcfit {
 
+/// The most pixels that a byte of a file can stand for: 8 x 8 by one bit of a progressive scan, at least two
+/// scans.
+inline constexpr std::size_t kJpegPixelsPerByte = 256;
+
 /// Reads one JPEG of 8 bits, grey or colour, baseline or progressive.
 class JpegReader {
  public:

@@ -1,0 +1,24 @@
+// The options that say how a table's file is to be read, in every command that takes tables of others.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "export/read_table.h"
+
+namespace ltcfit::app {
+
+/// Adds --second.
+void addTableInput(CLI::App& command, ReadOptions& options);
+
+/// The options that differ from the default, as a command of provenance has them: each with a space before
+/// it, paths without their folders.
+std::string tableInputText(const ReadOptions& options);
+
+/// readTableFile, with each of the file's notes as a line on stderr.
+TableFile readInput(const std::string& path, const ReadOptions& options = {});
+
+/// Prints notes of a reader, each as a line on stderr.
+void printNotes(const std::vector<std::string>& notes);
+
+}  // namespace ltcfit::app
