@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "app/table_arguments.h"
 #include "base/angles.h"
 #include "base/diagnostics.h"
-#include "app/table_arguments.h"
 #include "export/atomic_file.h"
 #include "export/read_table.h"
 #include "report/compare.h"

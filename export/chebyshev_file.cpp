@@ -17,7 +17,8 @@ constexpr double kLargestHalf = 65504.0;
 
 ChebyshevForm readForm(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kChebyshevFormat) throw InputError("format is not \"" + std::string(kChebyshevFormat) + "\"");
+  if (file.text("format") != kChebyshevFormat)
+    throw InputError("format is not \"" + std::string(kChebyshevFormat) + "\"");
   const Json& version = file.get("version");
   if (!version.is_number_integer() || version != kChebyshevVersion)
     throw InputError(fmt::format("version {} is not known; this program reads version {}",

@@ -19,15 +19,15 @@ namespace {
 
 namespace imf = OPENEXR_IMF_NAMESPACE;
 
-constexpr std::array<const char*, 4> kChannels{"R", "G", "B", "A"};
+constexpr std::array<const char*, 4> kExrChannels{"R", "G", "B", "A"};
 constexpr unsigned kTileSide = 64;
 
 // Of the four channels, one after the other in each texel.
 imf::FrameBuffer frameOf(char* texels, imf::PixelType type, std::size_t width) {
   const std::size_t size = type == imf::HALF ? 2 : 4;
   imf::FrameBuffer frame;
-  for (std::size_t c = 0; c < kChannels.size(); ++c)
-    frame.insert(kChannels[c], imf::Slice(type, texels + c * size, 4 * size, 4 * size * width));
+  for (std::size_t c = 0; c < kExrChannels.size(); ++c)
+    frame.insert(kExrChannels[c], imf::Slice(type, texels + c * size, 4 * size, 4 * size * width));
   return frame;
 }
 
@@ -42,7 +42,7 @@ std::string mipsToExr(const ExrMips& file) {
   header.compression() = imf::ZIP_COMPRESSION;
   header.setTileDescription(imf::TileDescription(kTileSide, kTileSide, imf::MIPMAP_LEVELS, imf::ROUND_DOWN));
   for (const auto& [key, value] : file.attributes) header.insert(key, imf::StringAttribute(value));
-  for (const char* channel : kChannels) header.channels().insert(channel, imf::Channel(type));
+  for (const char* channel : kExrChannels) header.channels().insert(channel, imf::Channel(type));
   ExrOutput stream;
   {
     imf::TiledOutputFile output(stream, header);
@@ -70,7 +70,7 @@ ExrMips parseExrMips(std::string_view bytes, const std::string& name) {
     finest.width = static_cast<std::size_t>(window.max.x) + 1;
     finest.height = static_cast<std::size_t>(window.max.y) + 1;
     bool half = true;
-    for (const char* channel : kChannels) {
+    for (const char* channel : kExrChannels) {
       const imf::Channel* const found = header.channels().findChannel(channel);
       if (found == nullptr) throw std::runtime_error(fmt::format("no channel {}", channel));
       half = half && found->type == imf::HALF;

@@ -17,7 +17,8 @@ constexpr int kTableVersion = 1;
 
 Table readTable(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kTableFormat) throw InputError("format is not \"" + std::string(kTableFormat) + "\"");
+  if (file.text("format") != kTableFormat)
+    throw InputError("format is not \"" + std::string(kTableFormat) + "\"");
   const Json& version = file.get("version");
   if (!version.is_number_integer() || version != kTableVersion) {
     throw InputError(fmt::format("version {} is not known; this program reads version {}",

@@ -21,9 +21,9 @@ constexpr std::size_t kMaxHeader = std::size_t{1} << 16;
 // Widths that the newer encoding has a place for.
 constexpr std::size_t kLeastRle = 8;
 constexpr std::size_t kMostRle = 32767;
-constexpr std::size_t kChannels = 4;
+constexpr std::size_t kRadianceChannels = 4;
 
-using Pixel = std::array<std::uint8_t, kChannels>;
+using Pixel = std::array<std::uint8_t, kRadianceChannels>;
 
 struct Header {
   double exposure = 1.0;
@@ -128,7 +128,7 @@ Header readHeader(Reader& reader) {
 
 // Each channel for itself: a count above 128 is a run of count - 128 equal bytes, else so many bytes follow.
 void readRle(Reader& reader, std::vector<Pixel>& scanline) {
-  for (std::size_t c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < kRadianceChannels; ++c) {
     for (std::size_t i = 0; i < scanline.size();) {
       const std::size_t count = reader.byte();
       const bool isRun = count > 128;

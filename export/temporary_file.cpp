@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int kTries = 128;  // of 2^64 names: one is enough, unless something is wrong
 
-fs::path folderOf(const std::string& path) {
+fs::path parentOf(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   return folder.empty() ? fs::path(".") : folder;
 }
@@ -35,7 +35,7 @@ bool linkUnnamed(const Descriptor& file, const std::string& name) {
 
 // A new name of the folder could be lost with the power, although the file's bytes are on the disk.
 void flushFolder(const std::string& path) {
-  const Descriptor folder(::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor folder(::open(parentOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.get() < 0) return;  // may be written to, but not read
   // some file systems have no such thing
   if (::fsync(folder.get()) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
@@ -46,7 +46,7 @@ class Replacement {
  public:
   Replacement(const std::string& path, std::string_view bytes, std::optional<mode_t> mode,
               const TemporaryFiles& files)
-      : path_(path), bytes_(bytes), mode_(mode), files_(files), folder_(folderOf(path)) {}
+      : path_(path), bytes_(bytes), mode_(mode), files_(files), folder_(parentOf(path)) {}
 
   void run() {
     if (!files_.unnamed || !throughUnnamed()) throughNamed();

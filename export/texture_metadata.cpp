@@ -39,7 +39,8 @@ Json coordinates(const TableInfo& info) {
 
 PackedTable read(const Json& json) {
   const JsonFields file(json, "");
-  if (file.text("format") != kTextureFormat) throw InputError("format is not \"" + std::string(kTextureFormat) + "\"");
+  if (file.text("format") != kTextureFormat)
+    throw InputError("format is not \"" + std::string(kTextureFormat) + "\"");
   if (!file.get("version").is_number_integer() || file.get("version") != kTextureVersion)
     throw InputError(fmt::format("version is not known; this program reads version {}", kTextureVersion));
   PackedTable packed;

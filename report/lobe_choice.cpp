@@ -19,9 +19,13 @@ struct Place {
   std::array<double, 4> anisotropic;
 };
 constexpr std::array<Place, 3> kPlaces{{
-    {"sharp, grazing view", {80.0 * kRadiansPerDegree, 0.05}, {0.3, 0.15, 80.0 * kRadiansPerDegree, 45.0 * kRadiansPerDegree}},
+    {"sharp, grazing view",
+     {80.0 * kRadiansPerDegree, 0.05},
+     {0.3, 0.15, 80.0 * kRadiansPerDegree, 45.0 * kRadiansPerDegree}},
     {"rough, normal view", {0.0, 1.0}, {1.0, 1.0, 0.0, 0.0}},
-    {"medium", {60.0 * kRadiansPerDegree, 0.25}, {0.6, 0.4, 50.0 * kRadiansPerDegree, 45.0 * kRadiansPerDegree}},
+    {"medium",
+     {60.0 * kRadiansPerDegree, 0.25},
+     {0.6, 0.4, 50.0 * kRadiansPerDegree, 45.0 * kRadiansPerDegree}},
 }};
 
 std::size_t nearestNode(const Table& table, const Place& place) {

@@ -11,7 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-
 Json settingToJson(const FitSetting& setting, const SettingSummary& summary, const Json& defaultOf) {
   Json effort = Json::object();
   for (const auto& [name, value] : setting.effort) effort[name] = value;

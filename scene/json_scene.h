@@ -37,8 +37,8 @@ bool isSceneDescription(std::string_view bytes);
 ///   {"image": "rough.png", "channel": "g", "scale": 0.5}   what a PNG or JPEG beside the file holds, linear,
 ///   channel
 ///                                           r, g, b or a, times scale (1 by default).
-/// They are taken as independent of each other; those of one material may have 2^22 combinations, and the lobes of
-/// all kMaxLobeBytes (scene_use.h).
+/// They are taken as independent of each other; those of one material may have 2^22 combinations, and the
+/// lobes of all kMaxLobeBytes (scene_use.h).
 ///
 /// InputError, without the file's name, for more than 1 MiB and anything else: unknown fields, wrong types,
 /// numbers out of range, by name.

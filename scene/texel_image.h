@@ -27,10 +27,10 @@ inline constexpr std::size_t kMaxTexels = std::size_t{1} << 28;
 /// for any other bytes.
 std::string unreadableKind(std::string_view bytes);
 
-/// A PNG or JPEG (8 bits, not CMYK); grey becomes three equal channels, missing alpha 255, 16 bits become their upper 8.
-/// InputError with `name` for anything else, for what is damaged, has a side of more than kMaxTexelSide or
-/// more than `maxTexels` texels, or claims more than its length can hold: before anything of that size is
-/// allocated.
+/// A PNG or JPEG (8 bits, not CMYK); grey becomes three equal channels, missing alpha 255, 16 bits become
+/// their upper 8. InputError with `name` for anything else, for what is damaged, has a side of more than
+/// kMaxTexelSide or more than `maxTexels` texels, or claims more than its length can hold: before anything of
+/// that size is allocated.
 TexelImage decodeTexels(std::string_view bytes, const std::string& name, std::size_t maxTexels = kMaxTexels);
 
 /// Stands for an image that could not be read: 64 x 64 texels, each channel uniform in 0..255 and independent

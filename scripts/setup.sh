@@ -2,7 +2,7 @@
 # Installs what is missing of packages.txt (Debian; as root or through sudo), configures and builds the program,
 # build/ltcfit. With --tests it also installs what only the tests need (packages-test.txt), and builds tests and benchmarks.
 # Nothing is done twice: a warm run only asks the build whether it is up to date. Killed at any moment, the next run
-# goes on. A package that cannot be installed ends nothing here: configuration says whether the build can do without.
+# goes on. LTCFIT_PRESET names another preset of CMakePresets.json that builds in build/ (ci). A package that cannot be installed ends nothing here: configuration says whether the build can do without.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -57,7 +57,7 @@ if ! [ build/build.ninja -nt /var/lib/dpkg/status ] || [ CMakePresets.json -nt b
   echo "configuring"
   mkdir -p build
   # what pkg-config does not find is named on stdout
-  cmake --preset release >build/configure.log || { tail -n 5 build/configure.log >&2; exit 1; }
+  cmake --preset "${LTCFIT_PRESET:-release}" >build/configure.log || { tail -n 5 build/configure.log >&2; exit 1; }
 fi
 
 # Of ninja's lines one in twenty, and whatever else it says.
