@@ -222,7 +222,7 @@ TEST(GltfTypes, NumbersOffTheirMultiples) {
     return builder;
   };
   const std::string start = "mesh 0, primitive 0: accessor ";
-  for (const std::size_t by : {1, 2, 3}) {
+  for (const std::size_t by : {1u, 2u, 3u}) {
     expectRefused(moved(0, 1, by, 0), start + "0: byteOffset " + std::to_string(by), "4 bytes of a number");
     expectRefused(moved(0, 1, 0, by), start + "0: byteOffset 0, in a buffer view from",
                   "4 bytes of a number");

@@ -354,6 +354,17 @@ TEST(TexelValues, TheCoarsestHasThreeOfEachChannel) {
     }
   while (values.level() < TexelValues::kCoarsest) values.coarsen();
   EXPECT_LE(values.size(), 27u);
+  // the ends stay
+  const auto ends = [](const auto& all, const auto& valueOf) {
+    const auto less = [&](const auto& a, const auto& b) { return valueOf(a) < valueOf(b); };
+    const auto [low, high] = std::minmax_element(all.begin(), all.end(), less);
+    return std::pair<int, int>(valueOf(*low), valueOf(*high));
+  };
+  const std::vector<TexelValues::Value> merged = values.values();
+  for (const auto& [slot, c] : std::vector<std::pair<TextureSlot, std::size_t>>{
+           {kMetallicRoughness, 1}, {kMetallicRoughness, 2}, {kSpecular, 3}})
+    EXPECT_EQ(ends(merged, [s = slot, i = c](const TexelValues::Value& v) { return v.texels[s][i]; }),
+              ends(image.texels, [i = c](const Rgba& texel) { return texel[i]; }));
   std::vector<TexelValues> groups(5, values);
   EXPECT_LE(limitCombinations(groups), kMaxTexelCombinations);
 }
