@@ -10,11 +10,14 @@
 
 #include "app/axes_argument.h"
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/refinement_run.h"
 #include "app/shell_quoted.h"
 #include "base/angles.h"
+#include "base/parallel_for.h"
 #include "export/atomic_file.h"
 #include "fit/fit_provenance.h"
+#include "fit/memory_estimate.h"
 
 namespace ltcfit::app {
 namespace {
@@ -139,6 +142,19 @@ void addTableOptions(CLI::App& command, FitArguments& a) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command.add_flag("-q,--quiet", a.quiet, "Print nothing but errors");
+}
+
+void requireFitMemory(const FitArguments& a, std::size_t nodes) {
+  const auto threads = static_cast<std::size_t>(threadCount(a.threads));
+  const double fits =
+      static_cast<double>(std::min(threads, nodes)) * lobeFitBytes(toFitOptions(a), kindOf(a));
+  const double entries = static_cast<double>(nodes) * nodeFitBytes(kindOf(a));
+  requireMemory(fits + entries, "fit: the fits and the table's entries",
+                fits < entries        ? "lower --size"
+                : a.fitter == "light" ? "lower --lights or --threads"
+                : a.fitter == "l3"    ? "lower --samples or --threads"
+                                      : "lower --samples, --directions or --threads");
+  if (a.refine) requireRefinementMemory(a.refinePoints, nodes, "--refine-points");
 }
 
 SymmetryMode symmetryOf(const FitArguments& a) {

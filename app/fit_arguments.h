@@ -61,6 +61,9 @@ double leakWeightOf(const FitArguments& a);
 double sizeExponentOf(const FitArguments& a);
 /// How a lobe is fitted, valid.
 TableFitOptions toFitOptions(const FitArguments& a);
+/// Refuses what there is no memory for: the fit of a table of so many nodes, and its refinement. Throws
+/// InputError.
+void requireFitMemory(const FitArguments& a, std::size_t nodes);
 SymmetryMode symmetryOf(const FitArguments& a);
 /// Whether fitIsotropicTable does it (warm starts along the table), not fitTable.
 bool isWarmStartedL3(const FitArguments& a);

@@ -46,6 +46,7 @@ int fitIso(const CLI::App& command, const FitArguments& a) {
   o.thetaMax = a.thetaMax;
   o = valid(o);
   checkOutputs(a);
+  requireFitMemory(a, size[0] * size[1]);
   return isWarmStartedL3(a) ? fitIsotropicL3(a, o) : fitTableCommand(a, planIsotropicTable(o));
 }
 
@@ -62,6 +63,7 @@ int fitAniso(const CLI::App& command, const FitArguments& a) {
   o.thetaMax = a.thetaMax;
   o = valid(o);
   checkOutputs(a);
+  requireFitMemory(a, size[0] * size[1] * size[2] * size[3]);
   const SymmetryMode symmetry = symmetryOf(a);
   return fitTableCommand(a, planAnisotropicTable(o, symmetry));
 }

@@ -37,6 +37,7 @@ int fitEntryCommand(const EntryArguments& a) {
   if (!std::isfinite(a.alphaX + a.alphaY + a.theta + a.phi))  // which CLI11's ranges let through
     throw InputError("--alpha-x, --alpha-y, --theta and --phi must be numbers");
   const LobeParameters p{a.alphaX, a.alphaY > 0.0 ? a.alphaY : a.alphaX, radians(a.theta), radians(a.phi)};
+  requireFitMemory(a.fit, 1);
   const TableFitOptions options = toFitOptions(a.fit);
   const Stopwatch watch;
   JobResult r = fitJob({p, familyOf(p)}, "ggx", options);

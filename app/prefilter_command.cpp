@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/notes.h"
 #include "base/refusal.h"
 #include "export/atomic_file.h"
@@ -88,6 +89,11 @@ int runPrefilter(const PrefilterArguments& a) {
   PrefilteredTexture texture;
   std::vector<ExportFile> files;
   try {
+    // measured: level, interpolated levels and file
+    constexpr double kTexelBytes = 100.0;
+    const auto side = static_cast<double>(prefilteredSize(light, options));
+    requireMemory(kTexelBytes * side * side, fmt::format("prefilter: {0:.0f} x {0:.0f} texels", side),
+                  "lower --size");
     texture = prefilter(light, options);
     files = lightTextureFiles(toLightTextureFile(texture, a.floats ? Precision::kFloat : Precision::kHalf),
                               output.filename().string(),

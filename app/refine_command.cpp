@@ -74,6 +74,8 @@ int refineCommand(const RefineArguments& a) {
       a.seed.value_or(ours ? info.provenance.seed : static_cast<std::int64_t>(RefinementOptions{}.seed));
   request.options = refinementOptions(isotropic, a.points, a.iterations, seed, a.threads, "");
 
+  requireRefinementMemory(a.points, file.table.nodeCount(), "--points");
+
   const RefinementSource source{std::filesystem::path(a.table).filename().string(), isAsFitted(file)};
   const RefinementRun run = refineToFile(file.table, source, request, a.output,
                                          isStream(a.output) ? std::string() : a.output + ".part");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/progress.h"
 #include "app/refinement_checkpoint.h"
 #include "app/shell_quoted.h"
@@ -13,6 +14,7 @@
 #include "export/atomic_file.h"
 #include "export/json_table.h"
 #include "export/little_endian.h"
+#include "fit/memory_estimate.h"
 
 namespace ltcfit::app {
 namespace {
@@ -134,6 +136,15 @@ RefinementOptions refinementOptions(bool isotropic, int points, int iterations, 
   std::string error;
   if (!o.isValid(&error)) throw InputError(fmt::format("--{}{}", prefix, error));
   return o;
+}
+
+void requireRefinementMemory(int points, std::size_t nodes, const std::string& option) {
+  const double bytes = refinementBytes(static_cast<std::size_t>(points), nodes);
+  const double each = bytes / static_cast<double>(static_cast<std::size_t>(points) + nodes);
+  const double most = static_cast<double>(availableMemory()) / each - static_cast<double>(nodes);
+  requireMemory(bytes, fmt::format("{} {}: the look-ups of a table of {} nodes", option, points, nodes),
+                most >= 16.0 ? fmt::format("at most {:.0f} fit", most)
+                             : "its nodes alone are too many, a smaller table is refined in less");
 }
 
 RefinementRun refineToFile(const Table& table, const RefinementSource& source,

@@ -43,6 +43,9 @@ struct RefinementRun {
   Times times{};
 };
 
+/// Refuses a refinement that there is no memory for, naming the option; throws InputError.
+void requireRefinementMemory(int points, std::size_t nodes, const std::string& option);
+
 /// Refines the table, keeping a checkpoint in `checkpoint` meanwhile (none where that is empty), and, if all
 /// nodes are usable, writes it to `output`. Throws InputError for a table that cannot be refined so, and for
 /// a checkpoint that does not belong to this run.

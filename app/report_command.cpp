@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/metric_arguments.h"
 #include "app/notes.h"
 #include "app/paths.h"
@@ -216,6 +217,17 @@ int report(const ReportArguments& a) {
   settings.options.metrics.seed = static_cast<std::uint64_t>(a.seed);
   settings.options.points = static_cast<std::size_t>(a.points);
   settings.options.threads = a.threads;
+  for (const std::vector<ReportTable>& group : groups) {
+    ScoreOptions options;  // of all three sets
+    options.set = PointSet::kOffGrid;
+    options.count = group[0].file.nodeCount() + 2 * settings.options.points;
+    options.metrics = a.metrics;
+    options.threads = a.threads;
+    requireMemory(scoreBytes(group[0].file, group.size(), options),
+                  fmt::format("report: {} samples, {} directions and {} lights on each thread, and {} points",
+                              a.metrics.samples, a.metrics.directions, a.metrics.lights, options.count),
+                  "lower --points, --samples, --directions, --lights or --threads");
+  }
   settings.storedAs = a.storedAs;
   settings.command = commandOf(a);
   Json out = reportHead(settings);

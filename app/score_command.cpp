@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/metric_arguments.h"
 #include "app/progress.h"
 #include "app/table_arguments.h"
@@ -211,6 +212,10 @@ int scoreCommand(const ScoreArguments& a) {
       a.integrator == "exact" ? LightIntegrator::kExact : LightIntegrator::kProxySphere;
   options.interpolation = a.interpolation;
   options.threads = a.threads;
+  requireMemory(scoreBytes(table, 1 + others.size(), options),
+                fmt::format("score: {} samples, {} directions and {} lights on each thread, and {} points",
+                            a.metrics.samples, a.metrics.directions, a.metrics.lights, a.count),
+                "lower --count, --samples, --directions, --lights or --threads");
   std::vector<const Table*> tables{&table};
   for (const Table& other : others) tables.push_back(&other);
 

@@ -130,7 +130,9 @@ double finestSigma(std::size_t size, const PrefilterOptions& options) {
   return texel * std::pow((own / options.aspect + 1.0 / 6.0) * (own * options.aspect + 1.0 / 6.0), 0.25);
 }
 
-std::size_t sizeFor(const LightTexture& picture, const PrefilterOptions& options) {
+}  // namespace
+
+std::size_t prefilteredSize(const LightTexture& picture, const PrefilterOptions& options) {
   if (picture.width == 0 || picture.height == 0 || picture.texels.size() != picture.width * picture.height)
     throw Refusal("the picture has no texels, or not as many as its size says");
   if (!(options.margin >= 0.0 && options.margin <= 4.0))
@@ -148,8 +150,6 @@ std::size_t sizeFor(const LightTexture& picture, const PrefilterOptions& options
     throw Refusal(fmt::format("size {}: need a power of two from 4 to {}", options.size, kMaxSize));
   return options.size;
 }
-
-}  // namespace
 
 Eigen::Vector3d bilinear(const PrefilteredLevel& level, double x, double y) {
   const auto last = static_cast<double>(level.size - 1);
@@ -177,7 +177,7 @@ double sigmaOfLod(const PrefilteredTexture& texture, double lod) {
 }
 
 PrefilteredTexture prefilter(const LightTexture& picture, const PrefilterOptions& options) {
-  const std::size_t size = sizeFor(picture, options);
+  const std::size_t size = prefilteredSize(picture, options);
   const Filter filter(picture, options);
   const double finest = kPrefilterSigma * (1.0 + 2.0 * options.margin) / static_cast<double>(size);
   const auto count = static_cast<std::size_t>(std::bit_width(size));

@@ -54,6 +54,10 @@ double sigmaOfLod(const PrefilteredTexture& texture, double lod);
 /// At x, y in texels, the centre of the first one at 0; clamped to the edge.
 Eigen::Vector3d bilinear(const PrefilteredLevel& level, double x, double y);
 
+/// Side of the finest level that `prefilter` makes. Throws Refusal for options out of range and
+/// a picture without texels.
+std::size_t prefilteredSize(const LightTexture& picture, const PrefilterOptions& options);
+
 /// Level k is the picture, read bilinearly as LightTexture tells, under a Gaussian of
 ///   sigma = hypot(kPrefilterSigma 2^k texels of the finest level, spread distance to the picture),
 /// integrated over the picture alone and normalised there. Distances and sigma are those on a light of the

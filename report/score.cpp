@@ -6,6 +6,7 @@
 
 #include "base/diagnostics.h"
 #include "base/parallel_for.h"
+#include "fit/memory_estimate.h"
 #include "fit/target_lobe.h"
 #include "report/direct_fit.h"
 
@@ -70,6 +71,24 @@ PointResult judge(const TableEntry& entry, const Table& table, const Target& tar
 }
 
 }  // namespace
+
+// Numbers are differences of the peak resident set over sizes.
+double scoreBytes(const Table& first, std::size_t tables, const ScoreOptions& options) {
+  const std::size_t nodes = first.nodeCount();
+  const bool all = options.set == PointSet::kNodes && (options.count == 0 || options.count > nodes);
+  const std::size_t points = all ? nodes : options.count;
+  const int threads = threadCount(options.threads);
+  const MetricOptions& m = options.metrics;
+  const double lights = static_cast<double>(m.quads) + 3.0 * m.lights;
+  double ofThread = m.samples * (110.0 + 15.2 * m.directions) + 158.0 * lights;
+  double bytes = static_cast<double>(points) * (64.0 + 350.0 * static_cast<double>(tables));
+  if (options.interpolation) {
+    const FitRecipe recipe = fitFromProvenance(first.info()).recipe;
+    ofThread += lobeFitBytes(recipe.fit, recipe.kind);
+    bytes += static_cast<double>(nodes) * nodeFitBytes(recipe.kind);
+  }
+  return bytes + std::min(static_cast<double>(threads), static_cast<double>(points)) * ofThread;
+}
 
 std::vector<Score> scoreTables(const std::vector<const Table*>& tables, const ScoreOptions& options,
                                const ScoreProgress& progress) {

@@ -41,6 +41,10 @@ struct Score {
 /// Called after each finished point, never from two threads at once.
 using ScoreProgress = std::function<void(std::size_t done, std::size_t total)>;
 
+/// Estimated bytes that scoreTables takes for `tables` tables of which the first is `first`, within a factor
+/// of 1.5 where they are more than some 20 MB (tests/app/memory.sh).
+double scoreBytes(const Table& first, std::size_t tables, const ScoreOptions& options);
+
 /// Scores every table at the same points, those of the first one. At nodes a table with the same number of
 /// nodes on the same axes is judged node by node, each at the parameters it was fitted with (published tables
 /// clamp theta and alpha at other values than ours); any other table is fetched at the first one's
