@@ -429,12 +429,6 @@ class Counter {
 
 }  // namespace
 
-int ShaderCost::specials() const {
-  int sum = 0;
-  for (const auto& [name, n] : special) sum += n;
-  return sum;
-}
-
 int ShaderCost::expanded() const {
   static const std::map<std::string, int> kLengths{{"atan2", 25}, {"atan", 15},    {"acos", 15}, {"asin", 15},
                                                    {"pow", 3},    {"division", 2}, {"exp", 2}};

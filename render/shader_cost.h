@@ -24,7 +24,12 @@ struct ShaderCost {
   int branches = 0;                    ///< conditional branches and switches
   std::map<std::string, int> special;  ///< by name as in GLSL; "division", "textureSize"
 
-  int specials() const;
+  /// Sum of `special`.
+  int specials() const {
+    int sum = 0;
+    for (const auto& [name, n] : special) sum += n;
+    return sum;
+  }
   /// Sum of all of the above.
   int total() const { return fetches + arithmetic + selects + branches + specials(); }
   /// The same with special functions that no GPU has as one instruction at what compilers make of them, an

@@ -35,12 +35,14 @@ fi
 if command -v npm >/dev/null; then environment+=("npm_config_registry=$(npm config get registry)"); fi
 if [ ${#optional[@]} -gt 0 ]; then
   cache=$(ccache -k cache_dir)
-  mkdir -p "$cache" "$root$cache"
-  mount --bind "$cache" "$root$cache"
-  environment+=(CMAKE_CXX_COMPILER_LAUNCHER=ccache "CCACHE_DIR=$cache" "CCACHE_BASEDIR=$(ccache -k base_dir)"
+  mkdir -p "$cache" "$root/var/cache/ccache"
+  mount --bind "$cache" "$root/var/cache/ccache"
+  environment+=(CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=/var/cache/ccache "CCACHE_BASEDIR=$(ccache -k base_dir)"
     "CCACHE_SLOPPINESS=$(ccache -k sloppiness)" "CCACHE_MAXSIZE=$(ccache -k max_size)")
   [ "$(ccache -k hash_dir)" = true ] || environment+=(CCACHE_NOHASHDIR=1)
   [ "$(ccache -k depend_mode)" = false ] || environment+=(CCACHE_DEPEND=1)
+  # other flags would be other objects
+  if [ -n "${LTCFIT_PRESET:-}" ]; then environment+=("LTCFIT_PRESET=$LTCFIT_PRESET"); fi
 fi
 
 mkdir -p "$root$(dirname "$source_dir")"
