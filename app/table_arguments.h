@@ -8,15 +8,21 @@
 
 namespace ltcfit::app {
 
-/// Adds --second.
+/// Adds --second and --read-as.
 void addTableInput(CLI::App& command, ReadOptions& options);
 
 /// The options that differ from the default, as a command of provenance has them: each with a space before
 /// it, paths without their folders.
 std::string tableInputText(const ReadOptions& options);
 
-/// readTableFile, with each of the file's notes as a line on stderr.
-TableFile readInput(const std::string& path, const ReadOptions& options = {});
+/// A table as a file holds it, and whether it is read right (judgeReading).
+struct InputTable : TableFile {
+  bool isReadRight = true;
+};
+
+/// readTableFile, with each of the file's notes, and each complaint about how it is read, as a line on
+/// stderr.
+InputTable readInput(const std::string& path, const ReadOptions& options = {});
 
 /// Prints notes of a reader, each as a line on stderr.
 void printNotes(const std::vector<std::string>& notes);

@@ -15,6 +15,7 @@
 #include "export/anisotropic_c_header.h"
 #include "export/engine_source.h"
 #include "export/js_module.h"
+#include "export/layouts.h"
 #include "export/little_endian.h"
 #include "export/texture_metadata.h"
 #include "ltc/resample.h"
@@ -26,25 +27,6 @@ constexpr ProfileAxes k2017{};
 constexpr ProfileAxes k2016{true, AxisMap::kLinear, 64, 64};
 constexpr ProfileAxes k2016Small{true, AxisMap::kLinear, 32, 32};
 constexpr ProfileAxes k2022{false, AxisMap::kLinear, 0, 0};
-
-// (Minv00, Minv20, Minv11, Minv02) / Minv22, halves.
-Packing packingOfHdrp() {
-  return {MatrixStorage::kMinv, Divisor::kM22, {{"matrix", {"m00", "m20", "m11", "m02"}}}};
-}
-
-// (Minv22, Minv20, Minv11, Minv02) / Minv00: the layout of 2016.
-Packing packingOf2016() {
-  return {MatrixStorage::kMinv,
-          Divisor::kM00,
-          {{"matrix", {"m22", "m20", "m11", "m02"}}, {"amplitude", {"norm", "fresnel"}}}};
-}
-
-// M itself: the shader inverts it.
-Packing packingOfGodot() {
-  return {MatrixStorage::kM,
-          Divisor::kThirdColumn,
-          {{"lut1", {"m00", "m20", "m11", "m02"}}, {"lut2", {"m22", "norm", "fresnel", "0"}}}};
-}
 
 // The layout of 2017 with the amplitudes and the sphere table in textures of their own.
 Packing packingOfBlender() {
@@ -282,13 +264,13 @@ ExportResult exportProfile(const Table& given, const Profile& profile, bool resa
     packed = packedAs(packingOfUnreal());
     result.files = {{name, texturesToUnreal(packed)}};
   } else if (profile.name == "unity-hdrp") {
-    packed = packedAs(packingOfHdrp());
+    packed = packedAs(findLayout("hdrp")->packing);
     result.files = {{name, texturesToUnity(packed)}};
   } else if (profile.name == "o3de") {
-    packed = packedAs(packingOf2016());
+    packed = packedAs(findLayout("2016")->packing);
     result.files = toDdsFiles(packed, DdsHeader::kDx10, names);
   } else if (profile.name == "godot") {
-    packed = packedAs(packingOfGodot());
+    packed = packedAs(findLayout("godot")->packing);
     result.files = toDdsFiles(packed, DdsHeader::kDx10, names);
   } else if (profile.name == "selfshadow-dds") {
     packed = packedAs(packing2017());

@@ -119,6 +119,7 @@ struct Reading {
   const ReadOptions& options;
   std::vector<std::string> notes;
   bool tookSecond = false;
+  bool tookLayout = false;
 };
 
 std::optional<std::string> secondTexturePath(const std::string& path, const ReadOptions& options) {
@@ -134,7 +135,7 @@ Image readSecond(const std::string& path, const Image& first) {
   return second;
 }
 
-// The layout of 2017, of one texture or two; where it is one, the second is its second layer or another file.
+// A table of one texture or two; where it is one, the second is its second layer or another file.
 PackedTable packedWithoutMetadata(std::vector<Image> textures, const std::string& path, Reading& reading) {
   for (std::size_t t = 0; t < textures.size(); ++t)
     refuseNonFinite(textures[t], {}, textures.size() == 1 ? path : fmt::format("{}: texture {}", path, t));
@@ -146,7 +147,9 @@ PackedTable packedWithoutMetadata(std::vector<Image> textures, const std::string
       textures.push_back(readSecond(*second, textures[0]));
     }
   }
-  return packedFrom2017(textures[0], textures.size() > 1 ? &textures[1] : nullptr, path);
+  reading.tookLayout = true;
+  return packedUndescribed(textures[0], textures.size() > 1 ? &textures[1] : nullptr, reading.options.layout,
+                           path, reading.notes);
 }
 
 TableFile fileOf(PackedTable packed, const std::string& format, const std::string& path) {
@@ -175,7 +178,10 @@ TableFile readTexture(const std::string& bytes, const std::string& path, Reading
     }
     const FloatArray array = parseNpy(bytes, path);
     if (packed) return fileOf(packedFromNumbers(std::move(*packed), array.values, path), ".npy", path);
-    if (array.shape.size() == 6) return {tableFrom2022(array, path), ".npy", std::nullopt, {}};
+    if (array.shape.size() == 6) {
+      reading.tookLayout = true;
+      return {tableFromArray(array, reading.options.layout, path, reading.notes), ".npy", std::nullopt, {}};
+    }
     return fileOf(packedWithoutMetadata({imageOfArray(array, path)}, path, reading), ".npy", path);
   }
   const Image image = parseDds(bytes, path);
@@ -279,13 +285,15 @@ Table readTable(const std::string& path, const ReadOptions& options) {
 }
 
 TableFile readTableFile(const std::string& path, const ReadOptions& options) {
-  Reading reading{options, {}, false};
+  Reading reading{options, {}};
   TableFile file = readAny(path, reading);
   if (!options.second.empty() && !reading.tookSecond) {
     throw InputError(
         fmt::format("--second {}: {} has its norm and Fresnel, or a description of where they are, already",
                     options.second, path));
   }
+  if (!options.layout.empty() && !reading.tookLayout)
+    throw InputError(fmt::format("layout '{}': {} says itself what its numbers mean", options.layout, path));
   file.notes = std::move(reading.notes);
   return file;
 }

@@ -9,6 +9,7 @@
 
 #include "base/refusal.h"
 #include "export/packing.h"
+#include "export/reading_verdict.h"
 
 namespace ltcfit {
 namespace {
@@ -80,6 +81,19 @@ Verdict determinants(const std::vector<ScoredSet>& sets) {
   return v;
 }
 
+// Whether the numbers are what the table says that they are.
+void addReading(const Table& table, std::vector<Verdict>& out) {
+  if (table.info().brdf != "ggx") return;
+  const ReadingVerdict reading = judgeReading(table);
+  const double ratio = reading.misfit > 0.0 ? reading.misfit / reading.best.misfit : 0.0;
+  out.push_back({"Misfit as read over that of the best other reading",
+                 reading.isBetter() ? ratio : std::min(ratio, kClearlyBetter), kClearlyBetter,
+                 fmt::format("read with {}: {:.3f} against {:.3f}", reading.best.name, reading.best.misfit,
+                             reading.misfit)});
+  out.push_back({"Limits of every GGX table that are broken", static_cast<double>(reading.broken.size()), 0.0,
+                 fmt::format("{}", fmt::join(reading.broken, "; "))});
+}
+
 Verdict halves(const Table& table) {
   Verdict v{"Half precision: largest shift of a lobe, rad", std::nan(""), kHalfShiftLimit, {}};
   try {
@@ -148,6 +162,7 @@ std::vector<Verdict> tableVerdicts(const std::vector<ReportTable>& tables,
         {"Fresnel, largest error at nodes", largest(nodes, Metric::kFresnelError), kAmplitudeLimit, {}});
   out.push_back(determinants(sets));
   out.push_back(halves(tables[0].file));
+  addReading(tables[0].file, out);
   constexpr std::array kCompared{Metric::kLightS, Metric::kLightM, Metric::kLightL, Metric::kForm,
                                  Metric::kTv,     Metric::kBelow,  Metric::kSw1};
   const std::vector<Score>& offGrid = of(sets, PointSet::kOffGrid).scores;
