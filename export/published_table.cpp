@@ -8,7 +8,7 @@
 #include "base/angles.h"
 #include "base/refusal.h"
 #include "export/atomic_file.h"
-#include "export/lobe_shape.h"
+#include "export/direction_moments.h"
 #include "export/reading_verdict.h"
 #include "export/texture_files.h"
 
@@ -120,10 +120,10 @@ bool hasAlphaAxes(const FloatArray& array) {
     for (std::size_t j = 0; j < i; ++j) {
       for (std::size_t k = 0; k < s[2]; ++k) {
         for (std::size_t l = 0; l < s[3]; ++l) {
-          const LobeShape lobe = ltcShape(matrixAt(array, i, j, k, l));
+          const DirectionMoments lobe = ltcMoments(matrixAt(array, i, j, k, l));
           const Eigen::Matrix3d other = matrixAt(array, j, i, k, s[3] - 1 - l);
-          exchanged += shapeDistance(lobe, ltcShape(swap * other * swap));
-          asIs += shapeDistance(lobe, ltcShape(matrixAt(array, j, i, k, l)));
+          exchanged += momentDistance(lobe, ltcMoments(swap * other * swap));
+          asIs += momentDistance(lobe, ltcMoments(matrixAt(array, j, i, k, l)));
           ++count;
         }
       }

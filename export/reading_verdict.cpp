@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "export/lobe_shape.h"
+#include "export/direction_moments.h"
 #include "export/reading_limits.h"
 #include "export/readings.h"
 
@@ -21,7 +21,7 @@ constexpr std::size_t kAnisotropicNodes = 4;
 constexpr double kKept = 0.75;
 constexpr int kMostChanges = 3;
 // Differences below are noise of the moments, or of a fit.
-constexpr double kNotable = 0.01;
+constexpr double kNotableMisfit = 0.01;
 constexpr double kAboutAsGood = 1.1;
 constexpr double kNoise = 0.002;
 constexpr std::size_t kMostTold = 3;
@@ -44,16 +44,16 @@ std::vector<std::vector<std::size_t>> someNodes(const Table& table) {
 }
 
 // Arrangements have most lobes in common.
-class GgxShapes {
+class GgxMomentsCache {
  public:
-  const LobeShape& operator()(const LobeParameters& p) {
+  const DirectionMoments& operator()(const LobeParameters& p) {
     const auto [found, isNew] = shapes_.try_emplace({p.alphaX, p.alphaY, p.theta, p.phi});
-    if (isNew) found->second = ggxShape(p).lobe;
+    if (isNew) found->second = ggxMoments(p).lobe;
     return found->second;
   }
 
  private:
-  std::map<std::array<double, 4>, LobeShape> shapes_;
+  std::map<std::array<double, 4>, DirectionMoments> shapes_;
 };
 
 double meanOfBetter(std::vector<double> distances) {
@@ -68,15 +68,15 @@ double meanOfBetter(std::vector<double> distances) {
 std::vector<ReadingFit> fitsOf(const Table& table, const std::vector<Arrangement>& arrangements,
                                const std::vector<MatrixReading>& matrices, int mostChanges) {
   const std::vector<std::vector<std::size_t>> nodes = someNodes(table);
-  std::vector<std::vector<LobeShape>> shapes(matrices.size());
+  std::vector<std::vector<DirectionMoments>> shapes(matrices.size());
   for (std::size_t m = 0; m < matrices.size(); ++m) {
     for (const std::vector<std::size_t>& node : nodes)
-      shapes[m].push_back(ltcShape(matrices[m].m(table.entry(node))));
+      shapes[m].push_back(ltcMoments(matrices[m].m(table.entry(node))));
   }
-  GgxShapes ggx;
+  GgxMomentsCache ggx;
   std::vector<ReadingFit> out;
   for (const Arrangement& arrangement : arrangements) {
-    std::vector<LobeShape> lobes;
+    std::vector<DirectionMoments> lobes;
     for (const std::vector<std::size_t>& node : nodes)
       lobes.push_back(ggx(parametersOf(arrangement, node, table.info().alphaFloor)));
     for (std::size_t m = 0; m < matrices.size(); ++m) {
@@ -85,7 +85,7 @@ std::vector<ReadingFit> fitsOf(const Table& table, const std::vector<Arrangement
       if (!matrices[m].name.empty()) fit.name += (fit.name.empty() ? "" : ", ") + matrices[m].name;
       std::vector<double> distances;
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        distances.push_back(shapeDistance(shapes[m][i], lobes[i]));
+        distances.push_back(momentDistance(shapes[m][i], lobes[i]));
       fit.misfit = meanOfBetter(std::move(distances));
       out.push_back(std::move(fit));
     }
@@ -118,7 +118,7 @@ double misfitOf(const Table& table) {
 }
 
 bool ReadingVerdict::isBetter() const {
-  return misfit > kClearlyBetter * best.misfit && misfit > best.misfit + kNotable;
+  return misfit > kClearlyBetter * best.misfit && misfit > best.misfit + kNotableMisfit;
 }
 
 std::vector<std::string> ReadingVerdict::complaints() const {

@@ -12,7 +12,7 @@ namespace ltcfit {
 struct ReadingFit {
   std::string name;     ///< as in "read with ..": "axes exchanged"; empty for the way that the table says
   int changes = 0;      ///< how many ways it differs from that
-  double misfit = 0.0;  ///< mean of shapeDistance over the better three quarters of up to 64 or 256 nodes
+  double misfit = 0.0;  ///< mean of momentDistance over the better three quarters of up to 64 or 256 nodes
 };
 
 /// Every reading tried, the table's own first.

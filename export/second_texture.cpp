@@ -22,6 +22,12 @@ std::array<std::string, 3> spellings(std::string_view part) {
   return out;
 }
 
+// O3DE names the pair "ltc_mat_lutrgba32f" and "ltc_amp_lutrg32f".
+std::string withTwoChannels(std::string stem) {
+  const std::size_t at = stem.rfind("rgba");
+  return at == std::string::npos ? stem : stem.replace(at, 4, "rg");
+}
+
 }  // namespace
 
 std::optional<std::string> secondTextureBeside(const std::string& path) {
@@ -34,10 +40,12 @@ std::optional<std::string> secondTextureBeside(const std::string& path) {
       if (at == std::string::npos) continue;
       std::string other = stem;
       other.replace(at, all[s].size(), spellings(to)[s]);
-      std::filesystem::path second(first);
-      second.replace_filename(other + first.extension().string());
-      std::error_code error;
-      if (std::filesystem::is_regular_file(second, error)) return second.string();
+      for (const std::string& name : {other, withTwoChannels(other)}) {
+        std::filesystem::path second(first);
+        second.replace_filename(name + first.extension().string());
+        std::error_code error;
+        if (std::filesystem::is_regular_file(second, error)) return second.string();
+      }
     }
   }
   return std::nullopt;

@@ -1,4 +1,4 @@
-#include "export/lobe_shape.h"
+#include "export/direction_moments.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -35,17 +35,17 @@ const std::vector<Eigen::Vector3d>& cosineDirections() {
   return list;
 }
 
-void addDirection(LobeShape& shape, const Eigen::Vector3d& w, double weight) {
+void addDirection(DirectionMoments& shape, const Eigen::Vector3d& w, double weight) {
   shape.mean += weight * w;
   shape.second += weight * w * w.transpose();
 }
 
 }  // namespace
 
-GgxShape ggxShape(const LobeParameters& p) {
+GgxMoments ggxMoments(const LobeParameters& p) {
   const GgxLobe lobe(viewDirection(p.theta, p.phi),
                      {std::max(p.alphaX, kLeastAlpha), std::max(p.alphaY, kLeastAlpha)});
-  GgxShape out;
+  GgxMoments out;
   for (const Eigen::Vector2d& u : evenPoints()) {
     const LobeSample s = lobe.sample(u);
     if (!(s.weight > 0.0)) continue;
@@ -61,14 +61,14 @@ GgxShape ggxShape(const LobeParameters& p) {
   return out;
 }
 
-LobeShape ltcShape(const Eigen::Matrix3d& m) {
-  LobeShape out;
+DirectionMoments ltcMoments(const Eigen::Matrix3d& m) {
+  DirectionMoments out;
   if (!m.allFinite() || m.determinant() == 0.0) return out;
   for (const Eigen::Vector3d& x : cosineDirections()) addDirection(out, (m * x).normalized(), 1.0 / kSamples);
   return out;
 }
 
-double shapeDistance(const LobeShape& a, const LobeShape& b) {
+double momentDistance(const DirectionMoments& a, const DirectionMoments& b) {
   return std::sqrt((a.mean - b.mean).squaredNorm() + (a.second - b.second).squaredNorm());
 }
 
