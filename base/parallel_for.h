@@ -1,7 +1,9 @@
 // The one parallel loop of the project: no other code opens an OpenMP region, which no exception may leave.
 #pragma once
 
+#ifdef _OPENMP
 #include <omp.h>
+#endif
 
 #include <atomic>
 #include <cstddef>
@@ -11,9 +13,23 @@
 
 namespace ltcfit {
 
-/// Number of threads that `asked` stands for: itself, or as many as the machine has where it is 0 or less.
-inline int threadCount(int asked) {
+/// Number of threads that `asked` stands for: itself, or as many as the machine has where it is 0 or less. A
+/// build without OpenMP, as those of the fuzzed readers, has one.
+inline int threadCount([[maybe_unused]] int asked) {
+#ifdef _OPENMP
   return asked > 0 ? asked : omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+/// Number of the calling thread within its loop, below threadCount().
+inline std::size_t threadSlot() {
+#ifdef _OPENMP
+  return static_cast<std::size_t>(omp_get_thread_num());
+#else
+  return 0;
+#endif
 }
 
 struct ParallelOptions {
@@ -61,7 +77,7 @@ void parallelFor(std::size_t n, ParallelOptions options, const Body& body) {
 #pragma omp parallel for schedule(dynamic, options.chunk) num_threads(threadCount(options.threads))
   for (std::size_t i = 0; i < n; ++i) {
     if (i >= end.load(std::memory_order_relaxed)) continue;
-    const auto slot = static_cast<std::size_t>(omp_get_thread_num());
+    const std::size_t slot = threadSlot();
     bool bodyEnded = false;
     try {
       if constexpr (std::is_void_v<decltype(call(i, slot))>) {
