@@ -86,7 +86,7 @@ void addReading(const Table& table, std::vector<Verdict>& out) {
   if (table.info().brdf != "ggx") return;
   const ReadingVerdict reading = judgeReading(table);
   const double ratio = reading.misfit > 0.0 ? reading.misfit / reading.best.misfit : 0.0;
-  out.push_back({"Misfit as read over that of the best other reading",
+  out.push_back({"Misfit as read, over the best other reading's",
                  reading.isBetter() ? ratio : std::min(ratio, kClearlyBetter), kClearlyBetter,
                  fmt::format("read with {}: {:.3f} against {:.3f}", reading.best.name, reading.best.misfit,
                              reading.misfit)});

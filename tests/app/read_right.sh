@@ -55,7 +55,7 @@ page="--points 4 --samples 64 --directions 2 --quads 2 --lights 2"
 if "$ltcfit" report small_right_1.npy $page -q -o right.html >report.txt 2>&1; then
   run 3 report small_turned_1.npy $page --gate -o turned.html
   complains small_turned_1.npy
-  grep -q "not kept: Misfit as read over that of the best other reading: .*read with axes exchanged" stdout.txt ||
+  grep -q "not kept: Misfit as read, over the best other reading's: .*read with axes exchanged" stdout.txt ||
     fail "report: $(cat stdout.txt)"
   run 0 report small_turned_1.npy $page -o turned.html
   run 0 report small_right_1.npy $page -o right.html && is_quiet small_right_1.npy

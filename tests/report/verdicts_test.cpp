@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "export/read_table.h"
 #include "fit/target_lobe.h"
 #include "ggx/moments.h"
 #include "report/points.h"
@@ -25,6 +26,8 @@ constexpr char kFetched[] = "Fetched matrices without an inverse in float32, off
 constexpr char kNormError[] = "Norm, largest error at nodes";
 constexpr char kFresnelError[] = "Fresnel, largest error at nodes";
 constexpr char kDeterminant[] = "Determinant of the shader's inverse, largest relative error at all points";
+constexpr char kMisread[] = "Misfit as read, over the best other reading's";
+constexpr char kBroken[] = "Limits of every GGX table that are broken";
 constexpr char kHalf[] = "Half precision: largest shift of a lobe, rad";
 
 using Planar = std::array<float, 5>;  // m00, m02, m11, m20, m22
@@ -86,7 +89,7 @@ ScoreOptions quick(PointSet set) {
   return o;
 }
 
-std::map<std::string, Verdict> verdictsOf(const Table& table) {
+std::map<std::string, Verdict> allVerdictsOf(const Table& table) {
   std::vector<ScoredSet> sets;
   for (const PointSet set : {PointSet::kNodes, PointSet::kOffGrid, PointSet::kExtreme})
     sets.push_back({set, scoreTables({&table}, quick(set))});
@@ -95,11 +98,37 @@ std::map<std::string, Verdict> verdictsOf(const Table& table) {
   return out;
 }
 
+// Those that say how good a table is: the cosines of goodTable are no GGX lobes, and must be told so.
+std::map<std::string, Verdict> verdictsOf(const Table& table) {
+  std::map<std::string, Verdict> out = allVerdictsOf(table);
+  EXPECT_EQ(out.erase(kMisread), 1u);
+  EXPECT_FALSE(out.at(kBroken).passes());
+  out.erase(kBroken);
+  return out;
+}
+
 std::set<std::string> failing(const std::map<std::string, Verdict>& verdicts) {
   std::set<std::string> out;
   for (const auto& [what, verdict] : verdicts)
     if (!verdict.passes()) out.insert(what);
   return out;
+}
+
+TEST(Verdicts, ATableThatIsReadWrongFails) {
+  const Table table = readTable(std::string(LTCFIT_DATA_DIR) + "/ltc_iso.json");
+  auto verdicts = allVerdictsOf(table);
+  EXPECT_TRUE(verdicts.at(kMisread).passes() && verdicts.at(kBroken).passes());
+  const std::size_t n = table.info().axes[0].size();
+  std::vector<float> exchanged(table.data().size());
+  for (std::size_t i = 0; i < table.nodeCount(); ++i)
+    std::copy_n(table.data().begin() + static_cast<std::ptrdiff_t>(i * table.channelCount()),
+                table.channelCount(),
+                exchanged.begin() + static_cast<std::ptrdiff_t>((i % n * n + i / n) * table.channelCount()));
+  verdicts = allVerdictsOf(Table(table.info(), exchanged));
+  EXPECT_FALSE(verdicts.at(kMisread).passes());
+  EXPECT_TRUE(verdicts.at(kMisread).detail.starts_with("read with axes exchanged"))
+      << verdicts.at(kMisread).detail;
+  EXPECT_FALSE(verdicts.at(kBroken).passes());
 }
 
 TEST(Verdicts, AGoodTablePassesAll) {
