@@ -2,6 +2,7 @@
 # built and made, and what happens where a package, a network or the charting library is missing.
 . "$(dirname "$0")/common.sh" "$@"
 export CALLS=$work/calls
+unset LTCFIT_PRESET  # the run of the tests may have one of its own
 mkdir -p bin project/scripts project/build/report/charts
 cp "$source_dir"/scripts/{setup,fit,measure}.sh project/scripts
 touch project/CMakePresets.json
