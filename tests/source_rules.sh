@@ -6,20 +6,22 @@ failures=0
 
 # Lines of a folder's C++ files that break a rule.
 violations() {
-  (cd "$1" && find app base export fit ggx ltc render report scene tailor -name '*.cpp' -o -name '*.h' 2>/dev/null) | sort |
-    while read -r file; do
-      # without comments and strings, which may speak of it
-      sed -E 's/"([^"\\]|\\.)*"//g; s,//.*,,' "$1/$file" > "$code"
-      [ "$file" = base/parallel_for.h ] ||
-        grep -nE '#[[:space:]]*pragma[[:space:]]+omp[[:space:]]+(parallel|for|critical|task|sections|single|master|atomic|barrier|ordered)|<omp\.h>|\bomp_[a-z_]+\(' "$code" |
-          sed "s,^,$file:,"
-      [ "$file" = base/diagnostics.h ] || grep -nE '\b(stderr|cerr|clog|perror)\b' "$code" | sed "s,^,$file:,"
-    done
+  (cd "$1" && find app base export fit ggx ltc render report scene tailor \( -name '*.cpp' -o -name '*.h' \) -print0 2>/dev/null |
+    LC_ALL=C sort -z | xargs -0 -r awk '
+      {
+        line = $0
+        # without strings and comments, which may speak of it
+        gsub(/"([^"\\]|\\.)*"/, "", line)
+        sub(/\/\/.*/, "", line)
+        loop = line ~ /#[ \t]*pragma[ \t]+omp[ \t]+(parallel|for|critical|task|sections|single|master|atomic|barrier|ordered)|<omp\.h>|(^|[^a-zA-Z0-9_])omp_[a-z_]+\(/
+        said = line ~ /(^|[^a-zA-Z0-9_])(stderr|cerr|clog|perror)([^a-zA-Z0-9_]|$)/
+        if ((loop && FILENAME != "base/parallel_for.h") || (said && FILENAME != "base/diagnostics.h"))
+          print FILENAME ":" FNR ":" $0
+      }')
 }
 
-code=$(mktemp)
 bad=$(mktemp -d)
-trap 'rm -rf "$code" "$bad"' EXIT
+trap 'rm -rf "$bad"' EXIT
 found=$(violations "$source_dir")
 [ -z "$found" ] || { echo "FAILED: not by base/parallel_for.h, base/diagnostics.h:"; echo "$found"; failures=1; }
 [ "$(find "$source_dir"/{app,base,export,fit,ggx,ltc,render,report,scene,tailor} -name '*.cpp' | wc -l)" -gt 100 ] ||

@@ -1,5 +1,5 @@
 // The page of `ltcfit report` in headless Chromium, from disk: a real one and made-up ones, or broken ones.
-//   node report.mjs pages|broken REPORT_HTML SOURCE_DIR BUILD_WEB CHARTS CHROMIUM PICTURES
+//   node report.mjs glance|pages|broken REPORT_HTML SOURCE_DIR BUILD_WEB CHARTS CHROMIUM PICTURES
 import { mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -156,6 +156,12 @@ const damages = [
   ['controls in print', '.slider input, details', 'details', print],
 ];
 
+async function glance(browser) {
+  for (const width of [1280, 390]) {
+    for (const text of await inspect(browser, reportPath, width, [captions, standing, layout])) fail(text);
+  }
+}
+
 async function goodPages(browser, work) {
   const pages = { report: reportPath };
   for (const [name, make] of Object.entries(samples)) {
@@ -206,7 +212,8 @@ const browser = await chromium.launch({
   ],
 });
 try {
-  if (part === 'pages') await goodPages(browser, work);
+  if (part === 'glance') await glance(browser);
+  else if (part === 'pages') await goodPages(browser, work);
   else await brokenPages(browser, work);
 } finally {
   await browser.close();

@@ -1,5 +1,6 @@
 # The page of `ltcfit report` in Chromium: bash report.sh PART LTCFIT SOURCE_DIR BUILD_WEB CHARTS [PICTURES]
-# PART: pages (a real one and made-up ones must be good) or broken (what is wrong with broken ones must be noticed).
+# PART: glance (a real one stands, and has its size), pages (it and made-up ones must be good in all) or broken (what is
+# wrong with broken ones must be noticed).
 # CHARTS is the charting library that the build embeds. Pictures are left in PICTURES, BUILD_WEB/pictures if not given.
 set -u
 part=$1
@@ -21,7 +22,7 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 report=
-if [ "$part" = pages ]; then
+if [ "$part" != broken ]; then
   # made-up results of `ltcfit check-gl`, `ltcfit pareto` and `ltcfit stability`: real ones take minutes
   node "$web/report_files.mjs" "$work" || { echo "FAILED: sample files"; exit 1; }
   theirs=$build_web/node_modules/three/examples/jsm/lights/RectAreaLightTexturesLib.js
