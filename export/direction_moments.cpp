@@ -20,7 +20,9 @@ constexpr double kLeastAlpha = 1e-4;
 const std::vector<Eigen::Vector2d>& evenPoints() {
   static const std::vector<Eigen::Vector2d> list = [] {
     std::vector<Eigen::Vector2d> out;
-    for (int i = 0; i < kSamples; ++i) out.emplace_back((i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide);
+    for (int row = 0; row < kSamples / kSide; ++row)
+      for (int column = 0; column < kSide; ++column)
+        out.emplace_back((column + 0.5) / kSide, (row + 0.5) / kSide);
     return out;
   }();
   return list;

@@ -40,7 +40,8 @@ std::optional<TextureSize> sizeOf(const TextArray& array, std::size_t components
   if (isKnown(s) && s.size() == 3 && s.back() == components) {
     size = {s[1], s[0]};
   } else {
-    const auto side = std::llround(std::sqrt(static_cast<double>(count / components)));
+    const std::size_t texels = count / components;
+    const auto side = std::llround(std::sqrt(static_cast<double>(texels)));
     size = {static_cast<std::size_t>(side), static_cast<std::size_t>(side)};
   }
   if (size.width < 2 || size.height < 2 || size.texels() * components != count) return std::nullopt;

@@ -193,7 +193,7 @@ bool readNumber(std::string_view text, std::size_t& at, float& value) {
   if (at >= text.size() || text[at] == '-') return false;
   const char* const begin = text.data() + at;
   const char* const end = text.data() + text.size();
-  const char* last = begin;
+  const char* last;
   if (text.substr(at, 2) == "0x" || text.substr(at, 2) == "0X") {
     std::uint16_t bits = 0;
     const auto result = std::from_chars(begin + 2, end, bits, 16);

@@ -68,7 +68,7 @@ double sumOverEdges(std::size_t n, const VertexAt& vertexAt, Eigen::Matrix3d* gr
   bool haveEntry = false;
   Vector3d exit = Vector3d::Zero();
   Vector3d firstEntry = Vector3d::Zero();
-  const Vector3d first = vertexAt(0);
+  const Vector3d& first = vertexAt(0);
   Vector3d a = first;
   for (std::size_t i = 0; i < n; ++i) {
     const Vector3d b = i + 1 < n ? vertexAt(i + 1) : first;

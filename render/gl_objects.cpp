@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,8 @@ GlObject boundTexture(GLenum target, GLint minify) {
   glGenTextures(1, &id);
   GlObject texture(id, [](unsigned name) { glDeleteTextures(1, &name); });
   glBindTexture(target, id);
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+  for (const auto axis :
+       std::initializer_list<GLenum>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTexParameteri(target, axis, GL_CLAMP_TO_EDGE);
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER, minify);
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

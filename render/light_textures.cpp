@@ -50,8 +50,9 @@ LightTexture stainedGlass(std::size_t size, std::uint64_t seed) {
   Random random(seed);
   std::vector<std::pair<Vector2d, Vector3d>> cells;
   for (std::size_t i = 0; i < kCells * kCells; ++i) {
+    const std::size_t row = i / kCells;
     const double x = static_cast<double>(i % kCells) + random.uniform();
-    const double y = static_cast<double>(i / kCells) + random.uniform();
+    const double y = static_cast<double>(row) + random.uniform();
     const double turn = random.uniform();
     const double light = 0.35 + 0.65 * random.uniform();
     cells.emplace_back(Vector2d(x, y) / static_cast<double>(kCells), light * hue(turn));

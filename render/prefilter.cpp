@@ -42,7 +42,9 @@ Weights weightsAt(double centre, double sigma, std::size_t count) {
   };
   // from outside, the weight falls from the edge on, faster than from the centre
   const double edge = std::clamp(centre, 0.0, 1.0);
-  const auto segment = [&](double t) { return static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * n + 0.5); };
+  const auto segment = [&](double t) {
+    return static_cast<std::size_t>(std::lround(std::clamp(t, 0.0, 1.0) * n));
+  };
   const std::size_t from = segment(edge - kSupport * sigma);
   const std::size_t to = segment(edge + kSupport * sigma);
   Weights weights;

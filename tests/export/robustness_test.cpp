@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -37,55 +35,8 @@
 #include "export/texture_files.h"
 #include "export/texture_metadata.h"
 #include "ggx/random.h"
+#include "tests/support/largest_allocation.h"
 #include "tests/support/small_table.h"
-
-namespace {
-// The largest block asked for since it was last set to 0, by whomever: new, malloc, zstd, OpenEXR.
-std::atomic<std::size_t> largestAllocation{0};
-void note(std::size_t size) {
-  std::size_t seen = largestAllocation.load(std::memory_order_relaxed);
-  while (size > seen && !largestAllocation.compare_exchange_weak(seen, size)) {
-  }
-}
-}  // namespace
-
-#ifdef __SANITIZE_ADDRESS__
-// of sanitizer/allocator_interface.h, which g++ does not bring
-extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
-                                                         void (*)(const volatile void*));
-namespace {
-[[maybe_unused]] const int hookInstalled = __sanitizer_install_malloc_and_free_hooks(
-    [](const volatile void*, std::size_t size) { note(size); }, [](const volatile void*) {});
-}
-#else
-// glibc's own names for what these replace; operator new and calls from libraries arrive here too
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-void* malloc(std::size_t size) {
-  note(size);
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  note(count * size);
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, std::size_t size) {
-  note(size);
-  return __libc_realloc(old, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  note(size);
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
-  *out = aligned_alloc(alignment, size);
-  return *out == nullptr ? ENOMEM : 0;
-}
-}
-#endif
 
 namespace ltcfit {
 namespace {
@@ -303,13 +254,13 @@ class Robustness : public testing::TestWithParam<Sample> {
   std::optional<Table> read(std::string_view bytes) {
     const auto block = std::make_unique<char[]>(bytes.size());
     std::copy(bytes.begin(), bytes.end(), block.get());
-    largestAllocation = 0;
+    test::largestAllocation = 0;
     std::optional<Table> table;
     try {
       table = sample_.read({block.get(), bytes.size()});
     } catch (const InputError&) {
     }
-    const std::size_t most = largestAllocation;
+    const std::size_t most = test::largestAllocation;
     largest_ = std::max(largest_, most);
     EXPECT_LE(most, kConstant + sample_.ratio * bytes.size());
     return table;

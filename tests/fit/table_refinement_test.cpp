@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kHalfPi = 0.5 * std::numbers::pi;
-
 TableFitOptions quickFit() {
   TableFitOptions o;
   o.sw.levels = {{256, 16, 1024}};
