@@ -8,4 +8,5 @@ if [ "${1:-}" = --all ]; then
   which=()
   shift
 fi
-exec ctest --test-dir build --output-on-failure -j "$(nproc)" "${which[@]}" "$@"
+# one more than there are processors: some wait for a browser
+exec ctest --test-dir build --output-on-failure -j "$(($(nproc) + 1))" "${which[@]}" "$@"

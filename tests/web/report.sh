@@ -1,14 +1,14 @@
 # The page of `ltcfit report` in Chromium: bash report.sh PART LTCFIT SOURCE_DIR BUILD_WEB CHARTS [PICTURES]
 # PART: glance (a real one stands, and has its size), pages (it and made-up ones must be good in all) or broken (what is
 # wrong with broken ones must be noticed).
-# CHARTS is the charting library that the build embeds. Pictures are left in PICTURES, BUILD_WEB/pictures if not given.
+# CHARTS is the charting library that the build embeds. Pictures for people are left in PICTURES, where it is given.
 set -u
 part=$1
 ltcfit=$2
 source_dir=$3
 build_web=$4
 charts=$5
-pictures=${6:-$build_web/pictures}
+pictures=${6:-}
 web=$source_dir/tests/web
 
 . "$web/chromium.sh"
